@@ -28,7 +28,7 @@ from model.search.reserve import more_by_plan, usual_reserve
 from model.simulation.extract import extract
 from model.solution import Solution
 from model.together.exact import MOST_CUSTOMERS
-from model.together.improving import Part, Terms, improve_together
+from model.together.improving import SearchPart, SearchTerms, improve_together
 from model.together.joint import find_joint
 from model.together.pulling import nobody_served
 
@@ -281,7 +281,7 @@ def _improve(problem: Problem, instance: Instance, first: Accepted | None, optio
     """Search from a plan, or from none; also for groups who may be served only together."""
     begun = None if first is None else first.solution
     turns = options.search_iterations
-    terms = Terms(options.seed, turns, deadline, listener.should_stop, listener.on_progress)
+    terms = SearchTerms(options.seed, turns, deadline, listener.should_stop, listener.on_progress)
     whole = (turns == 0 or bool(problem.choices) or bool(problem.relations)
              or problem.fairness.is_stated
              or (bool(problem.shipments) and problem.num_customers > MOST_CUSTOMERS))
@@ -290,7 +290,7 @@ def _improve(problem: Problem, instance: Instance, first: Accepted | None, optio
         return _search(problem, instance, begun, options, deadline, listener,
                        math.inf if first is None else first.cost)
 
-    def search(begun: Solution | None, part: Part, should_stop: Callable[[], bool],
+    def search(begun: Solution | None, part: SearchPart, should_stop: Callable[[], bool],
                on_progress: Callable[[Progress], None]) -> Improved:
         own = replace(options, search_iterations=None if turns is None else turns - part.made,
                       cooled=max(part.cooled, options.cooled))

@@ -35,20 +35,20 @@ Routes = list[tuple[int, list[int]]]
 
 
 @dataclass(frozen=True)
-class Setting:
+class CompletionSetting:
     """A problem, packed alone."""
 
     problem: Problem
     instance: Instance
 
     @classmethod
-    def of(cls, problem: Problem) -> "Setting":
+    def of(cls, problem: Problem) -> "CompletionSetting":
         """Pack a problem."""
         return cls(problem, pack([problem]))
 
 
 @dataclass(frozen=True)
-class Rest:
+class ProblemRest:
     """What is left of a problem after some actions."""
 
     problem: Problem
@@ -74,7 +74,7 @@ def _is_plain(kind: VehicleType) -> bool:
             and all(value is None for value in rarer))
 
 
-def state_after(setting: Setting, actions: IntArray) -> State:
+def state_after(setting: CompletionSetting, actions: IntArray) -> State:
     """Return the state after actions, in one row."""
     state = reset(setting.instance, np.zeros(1, np.int64))
     apply_all(setting.instance, state, 0, actions)
@@ -88,7 +88,7 @@ def apply_all(instance: Instance, state: State, r: int, actions: IntArray) -> No
         done = apply_route(instance, state, r, actions, done)
 
 
-def cost_of(setting: Setting, actions: IntArray) -> float:
+def cost_of(setting: CompletionSetting, actions: IntArray) -> float:
     """Return what a whole plan costs."""
     state = state_after(setting, actions)
     finish(setting.instance, state, 0)
@@ -100,7 +100,7 @@ def is_cut(actions: IntArray, length: int) -> bool:
     return length == 0 or actions[length - 1] % NUM_KINDS != OPEN
 
 
-def what_is_left(setting: Setting, actions: IntArray) -> Rest | None:
+def what_is_left(setting: CompletionSetting, actions: IntArray) -> ProblemRest | None:
     """Return what is left after actions; None if nobody is, or no vehicle."""
     whole, state = setting.problem, state_after(setting, actions)
     first = whole.num_depots
@@ -129,8 +129,8 @@ def what_is_left(setting: Setting, actions: IntArray) -> Rest | None:
     problem = replace(
         whole, customers=tuple(customers), vehicle_types=tuple(types), travel=tuple(legs),
         coordinates=whole.coordinates[source], may_serve=table)
-    return Rest(problem, source, tuple(kinds), 0 if is_open else None,
-                places[0] if places else 0)
+    return ProblemRest(problem, source, tuple(kinds), 0 if is_open else None,
+                       places[0] if places else 0)
 
 
 def _under_way(whole: Problem, vehicle: np.record, travel: int) -> VehicleType:
@@ -170,7 +170,7 @@ def _from_here(own: Travel, depot: int, here: int) -> Travel:
     return Travel(*result)
 
 
-def complete(rest: Rest, routes: Routes, turns: int, seed: int) -> Routes:
+def complete(rest: ProblemRest, routes: Routes, turns: int, seed: int) -> Routes:
     """Return the search's routes for what is left.
 
     Parameters
@@ -196,7 +196,7 @@ def complete(rest: Rest, routes: Routes, turns: int, seed: int) -> Routes:
     return _read(rest, data, searcher)
 
 
-def _written(rest: Rest, routes: Routes) -> Solution:
+def _written(rest: ProblemRest, routes: Routes) -> Solution:
     """Return routes of the whole in the numbers of what is left, without times."""
     number = np.full(int(rest.nodes.max()) + 1, -1)
     first = rest.problem.num_depots
@@ -216,7 +216,7 @@ def _written(rest: Rest, routes: Routes) -> Solution:
     return Solution(tuple(result), ())
 
 
-def _read(rest: Rest, data: ProblemData, searcher: Searcher) -> Routes:
+def _read(rest: ProblemRest, data: ProblemData, searcher: Searcher) -> Routes:
     """Return the best routes, in nodes of the whole problem, the open vehicle's first."""
     opened, routes = Routes(), Routes()
     for route in read_routes(data, searcher):

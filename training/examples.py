@@ -13,7 +13,7 @@ from model.policy.decision_features import Observation, Rollouts
 from model.problem import FloatArray, IntArray, Problem
 from model.simulation.actions import LAUNCH, NUM_KINDS, OPEN
 from training.completion import apply_all
-from training.labels import NONE, TRIED, Labelled, Origin, Trial
+from training.labels import NONE, TRIED, ChoiceTrial, Labelled, Origin
 from training.rollout import Batch, make_batch
 
 MOST_PAIRS = 6
@@ -35,7 +35,7 @@ class Stretch:
     path: IntArray  # codes
     wrong: int = NONE  # code of what the plan chose instead of the first
     weight: float = 0.0  # of that pair
-    trial: Trial | None = None  # of the only decision
+    trial: ChoiceTrial | None = None  # of the only decision
 
 
 @dataclass(frozen=True, eq=False)
@@ -175,7 +175,7 @@ def _decision(seen: Observation, r: int, row: Stretch, index: int) -> _Seen | No
                  row.trial is not None, *_rises(row.trial, legal))
 
 
-def _rises(trial: Trial | None, legal: Sequence[int]) -> tuple[IntArray, FloatArray]:
+def _rises(trial: ChoiceTrial | None, legal: Sequence[int]) -> tuple[IntArray, FloatArray]:
     """Return the indices of choices that were tried, and by how much dearer plans get by each."""
     unknown = np.zeros(TRIED, np.int64), np.full(TRIED, np.nan)
     if trial is None:

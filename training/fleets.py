@@ -19,7 +19,7 @@ from model.problem import (
     Travel,
     VehicleType,
 )
-from training.ground import Ground, integer, log_uniform, uniform
+from training.ground import Square, integer, log_uniform, uniform
 from training.orders import SKILLS, Orders, Reach
 
 
@@ -32,7 +32,7 @@ class Prices:
     per_hour: float
 
 
-def draw_prices(rng: np.random.Generator, ground: Ground, fixed: float, distance: float,
+def draw_prices(rng: np.random.Generator, ground: Square, fixed: float, distance: float,
                 time: float) -> Prices:
     """Draw costs of which each is charged with its probability, distance if neither it nor time.
 
@@ -60,7 +60,7 @@ def num_loads(demand: IntArray, capacity: tuple[int, ...]) -> float:
     return max(total / max(room, 1) for total, room in zip(totals, capacity, strict=True))
 
 
-def vehicles_needed(ground: Ground, orders: Orders, capacity: tuple[int, ...], day: float,
+def vehicles_needed(ground: Square, orders: Orders, capacity: tuple[int, ...], day: float,
                     trips: int = 1) -> float:
     """Estimate the vehicles needed by load and by time; `day` (ms) may be infinite.
 
@@ -80,7 +80,7 @@ def draw_profile(rng: np.random.Generator, opens: int, closes: int) -> SpeedProf
     return SpeedProfile(tuple(distinct.tolist()), tuple(factors.tolist()))
 
 
-def draw_drones(rng: np.random.Generator, ground: Ground, travel: int, orders: Orders,
+def draw_drones(rng: np.random.Generator, ground: Square, travel: int, orders: Orders,
                 prices: Prices) -> DroneType:
     """Draw the 1 or 2 drones of a truck.
 
@@ -117,7 +117,7 @@ def _offered(rng: np.random.Generator, everything: bool) -> frozenset[str]:
     return frozenset(skill for skill in SKILLS if everything or rng.random() < 0.4)
 
 
-def draw_types(rng: np.random.Generator, ground: Ground, orders: Orders, prices: Prices,
+def draw_types(rng: np.random.Generator, ground: Square, orders: Orders, prices: Prices,
                num_types: int, day: float) -> tuple[tuple[VehicleType, ...], tuple[Travel, ...]]:
     """Draw types, of which the first has the largest capacity and every skill.
 
@@ -164,7 +164,7 @@ def with_shift(vehicle_type: VehicleType, reach: Reach, service_duration: IntArr
 
 
 def with_limits(rng: np.random.Generator, vehicle_type: VehicleType, reach: Reach,
-                service_duration: IntArray, ground: Ground,
+                service_duration: IntArray, ground: Square,
                 chances: tuple[float, float]) -> VehicleType:
     """Limit working duration (0.4 to 0.9 of the shift) and trip distance (2 to 6 sides), by chance.
 
@@ -184,7 +184,7 @@ def with_limits(rng: np.random.Generator, vehicle_type: VehicleType, reach: Reac
     return replace(vehicle_type, max_working_duration=working, max_trip_distance=trip)
 
 
-def drawn_unassigned_cost(ground: Ground, customers: tuple[Customer, ...],
+def drawn_unassigned_cost(ground: Square, customers: tuple[Customer, ...],
                           vehicle_types: tuple[VehicleType, ...],
                           travel: tuple[Travel, ...]) -> float:
     """Return a cost per unassigned customer above that of any detour.
@@ -212,7 +212,7 @@ def drawn_unassigned_cost(ground: Ground, customers: tuple[Customer, ...],
     return 10 * dearest + 5 * shift * (late + early)
 
 
-def assemble(ground: Ground, orders: Orders, vehicle_types: tuple[VehicleType, ...],
+def assemble(ground: Square, orders: Orders, vehicle_types: tuple[VehicleType, ...],
              travel: tuple[Travel, ...]) -> Problem:
     """Put an instance together."""
     customers = orders.customers()

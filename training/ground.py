@@ -13,7 +13,7 @@ from model.problem import MM_PER_KM, MS_PER_HOUR, FloatArray, IntArray, Travel
 
 
 @dataclass(frozen=True, eq=False)
-class Ground:
+class Square:
     """Nodes in a square, depots first."""
 
     coordinates: FloatArray  # (node, 2) km
@@ -81,8 +81,8 @@ def draw_points(rng: np.random.Generator, num_depots: int, num_customers: int,
 
 
 def lay_ground(rng: np.random.Generator, points: FloatArray, num_depots: int, side_km: float,
-               speed_kmh: float, noise: float = 0.0) -> Ground:
-    """Scale points of the unit square to a `Ground`.
+               speed_kmh: float, noise: float = 0.0) -> Square:
+    """Scale points of the unit square to a `Square`.
 
     With `noise` above 0, each directed leg is longer than the straight line by a uniform share of
     up to `noise`: the road matrix is asymmetric and breaks the triangle inequality now and then.
@@ -91,6 +91,6 @@ def lay_ground(rng: np.random.Generator, points: FloatArray, num_depots: int, si
     side = side_km * MM_PER_KM
     straight = np.hypot(x[:, None] - x, y[:, None] - y) * side
     road = straight * (1.0 + noise * rng.random(straight.shape)) if noise else straight
-    return Ground(coordinates=points * side_km, straight=straight,
+    return Square(coordinates=points * side_km, straight=straight,
                   distance=np.rint(road).astype(np.int64), side=side,
                   crossing=math.ceil(side_km / speed_kmh * MS_PER_HOUR), num_depots=num_depots)

@@ -23,11 +23,11 @@ from model.policy.decision_features import Observation, Rollouts
 from model.policy.rolling import StepWeights, candidate_scores, roll_out
 from model.policy.problem_features import Float32Array
 from model.problem import FloatArray, IntArray, Problem
-from training.completion import Setting, apply_all, can_complete
+from training.completion import CompletionSetting, apply_all, can_complete
 from training.deviations import go_on, judge_by_policy
 from training.export import WEIGHTS
 from training.instances import DEFAULT_CONFIG, generate
-from training.mistakes import PATH, Judge, Judgement, Mistake
+from training.mistakes import PATH, CompletionJudge, Judgement, Mistake
 from training.rollout import Batch, make_batch
 from training.variants import uniform_vrptw
 
@@ -82,7 +82,7 @@ class Pair:
 
 
 @dataclass(frozen=True)
-class Trial:
+class ChoiceTrial:
     """What each of some choices comes to at one decision."""
 
     step: int  # number of the action
@@ -102,7 +102,7 @@ class Labelled:
     # none of a plan that the policy judged by itself.
     cuts: IntArray = field(default_factory=lambda: np.zeros(0, np.int64))
     worth: FloatArray = field(default_factory=lambda: np.zeros(0))
-    trials: list[Trial] = field(default_factory=list)
+    trials: list[ChoiceTrial] = field(default_factory=list)
 
 
 def read_policy(path: Path) -> AttentionPolicy:
@@ -172,7 +172,7 @@ def to_pair(actor: Actor, batch: Batch, actions: IntArray, mistake: Mistake) -> 
 
 
 def try_others(actor: Actor, problem: Problem, batch: Batch, actions: IntArray,
-               rng: np.random.Generator, effort: float = 1.0) -> list[Trial]:
+               rng: np.random.Generator, effort: float = 1.0) -> list[ChoiceTrial]:
     """Return what the likeliest choices come to at some decisions of a plan.
 
     By the search, or by the policy itself in two symmetries where the search can't tell.
@@ -184,7 +184,8 @@ def try_others(actor: Actor, problem: Problem, batch: Batch, actions: IntArray,
     drawn = np.sort(rng.permutation(len(chosen))[:MOST_TRIALS])
     at, codes = [chosen[place][0] for place in drawn], [chosen[place][1] for place in drawn]
     if can_complete(problem):
-        found = list(Judge(Setting(problem, batch.instance), actions, effort).compare(at, codes))
+        setting = CompletionSetting(problem, batch.instance)
+        found = list(CompletionJudge(setting, actions, effort).compare(at, codes))
     else:
         beginnings = [np.append(actions[:step], code)
                       for step, some in zip(at, codes, strict=True) for code in some]
@@ -192,7 +193,7 @@ def try_others(actor: Actor, problem: Problem, batch: Batch, actions: IntArray,
         costs = np.mean([go_on(actor, layout, beginnings)[1] for layout in layouts], axis=0)
         ends = np.cumsum([len(some) for some in codes])
         found = [part.tolist() for part in np.split(costs, ends[:-1])] if beginnings else []
-    return [Trial(step, _padded(some, NONE).astype(np.int64), _padded(costs, np.nan))
+    return [ChoiceTrial(step, _padded(some, NONE).astype(np.int64), _padded(costs, np.nan))
             for step, some, costs in zip(at, codes, found, strict=True)]
 
 
@@ -205,7 +206,8 @@ def label(actor: Actor, origin: Origin, effort: float = 1.0) -> tuple[Labelled, 
     rng = np.random.default_rng((origin.seed, 1))
     problem, batch, actions = _planned(actor, origin, rng)
     if can_complete(problem):
-        judgement = Judge(Setting(problem, batch.instance), actions, effort).judge()
+        setting = CompletionSetting(problem, batch.instance)
+        judgement = CompletionJudge(setting, actions, effort).judge()
     else:
         layouts = [batch, make_batch([problem], [origin.variant], rng)]
         judgement = judge_by_policy(actor, layouts, actions, rng)
@@ -277,10 +279,10 @@ def read(path: Path) -> list[Labelled]:
         for plan, number, rise, codes in zip(rows["plan"], rows["step"], rows["rise"],
                                              rows["path"], strict=True):
             pairs[plan].append(Pair(int(number), float(rise), codes.astype(np.int64)))
-        trials: list[list[Trial]] = [[] for _ in ends]
+        trials: list[list[ChoiceTrial]] = [[] for _ in ends]
         for plan, number, codes, costs in zip(rows["tried"], rows["tried_at"], rows["choice"],
                                               rows["comes_to"], strict=True):
-            trials[plan].append(Trial(int(number), codes.astype(np.int64), costs))
+            trials[plan].append(ChoiceTrial(int(number), codes.astype(np.int64), costs))
         return [Labelled(Origin(str(rows["variant"][index]), int(rows["size"][index]),
                                 int(rows["seed"][index])),
                          rows["action"][end - length:end].astype(np.int64),

@@ -14,7 +14,8 @@ import numpy as np
 from model.problem import UNLIMITED, IntArray, Problem
 from model.simulation.actions import DRIVE, NUM_KINDS, OPEN, RETURN
 from training.completion import (
-    Routes, Setting, complete, cost_of, is_cut, open_type, to_actions, to_routes, what_is_left,
+    CompletionSetting, Routes, complete, cost_of, is_cut, open_type, to_actions, to_routes,
+    what_is_left,
 )
 
 LEAST_RISE = 0.004
@@ -52,10 +53,10 @@ class Judgement:
     worth: dict[int, float] = field(default_factory=dict)  # by length of a beginning: its cost
 
 
-class Judge:
+class CompletionJudge:
     """Completions of the beginnings of one plan, which only get cheaper."""
 
-    def __init__(self, setting: Setting, actions: IntArray, effort: float = 1.0) -> None:
+    def __init__(self, setting: CompletionSetting, actions: IntArray, effort: float = 1.0) -> None:
         """`effort` times the usual turns."""
         self._setting, self._actions, self._effort = setting, actions, effort
         self.total = cost_of(setting, actions)

@@ -16,7 +16,7 @@ from training.fleets import (
     with_limits,
     with_shift,
 )
-from training.ground import Ground, integer, log_uniform, uniform
+from training.ground import Square, integer, log_uniform, uniform
 from training.orders import (
     UNOFFERED,
     Orders,
@@ -69,7 +69,7 @@ def mixed(rng: np.random.Generator, num_customers: int, config: InstanceConfig) 
     return assemble(ground, orders, shuffled(rng, tuple(kind for kind, _ in ruled)), travel)
 
 
-def _with_rules(rng: np.random.Generator, kind: VehicleType, ground: Ground, orders: Orders,
+def _with_rules(rng: np.random.Generator, kind: VehicleType, ground: Square, orders: Orders,
                 prices: Prices, travel: tuple[Travel, ...], day: tuple[int, float],
                 is_first: bool) -> tuple[VehicleType, Reach]:
     """Draw depot, drones, trips, profile, shift and limits of a type."""
@@ -90,7 +90,7 @@ def _with_rules(rng: np.random.Generator, kind: VehicleType, ground: Ground, ord
     return with_limits(rng, kind, reach, orders.service_duration, ground, (0.4, 0.2)), reach
 
 
-def _timed(rng: np.random.Generator, orders: Orders, reach: Reach, ground: Ground,
+def _timed(rng: np.random.Generator, orders: Orders, reach: Reach, ground: Square,
            cost_per_hour: float) -> Orders:
     """Draw windows, softness and release times."""
     width = log_uniform(rng, 0.2, 2.0) * ground.crossing

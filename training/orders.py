@@ -16,7 +16,7 @@ from model.problem import (
     Travel,
     VehicleType,
 )
-from training.ground import Ground, integer, log_uniform, uniform
+from training.ground import Square, integer, log_uniform, uniform
 
 SERVED_BY: tuple[ServedBy, ...] = ("either", "truck", "drone")
 EITHER, TRUCK, DRONE = range(3)
@@ -90,7 +90,7 @@ def draw_demand(rng: np.random.Generator, num_customers: int, dimensions: int = 
     return np.stack(columns, axis=1)
 
 
-def draw_service(rng: np.random.Generator, num_customers: int, ground: Ground) -> IntArray:
+def draw_service(rng: np.random.Generator, num_customers: int, ground: Square) -> IntArray:
     """Draw service durations: none, equal, or spread, up to 0.4 crossings."""
     kind, mean = rng.random(), log_uniform(rng, 0.02, 0.25) * ground.crossing
     if kind < 0.2:

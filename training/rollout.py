@@ -163,7 +163,7 @@ class Simulation:
         self._pool.shutdown()
 
 
-class Part:
+class PolicyRollouts:
     """Rollouts of some of a batch's problems by a policy, a decision of each at a time."""
 
     def __init__(self, simulation: Simulation, memory: Tensor, hidden: Tensor) -> None:
@@ -204,8 +204,8 @@ def roll_out(policy: PolicyNetwork, batch: Batch, num_rollouts: int, choose: Cho
     for bounds in np.array_split(np.arange(batch.num_problems), num_parts):
         problems = range(int(bounds[0]), int(bounds[-1]) + 1)
         simulation = Simulation(batch, problems, num_rollouts, num_threads)
-        parts.append(Part(simulation, memory[problems.start:problems.stop],
-                          memory.new_zeros(*simulation.shape, policy.hidden_size)))
+        parts.append(PolicyRollouts(simulation, memory[problems.start:problems.stop],
+                                    memory.new_zeros(*simulation.shape, policy.hidden_size)))
     going = parts
     for _ in range(max_steps(batch.instance)):
         going = [part for part in going if part.step(policy, choose)]

@@ -42,7 +42,7 @@ STOP = threading.Event()
 
 
 @dataclass(frozen=True)
-class Leg:
+class TrainingLeg:
     """Train a policy; goes on from the checkpoint in the folder if there is one."""
 
     folder: Path
@@ -61,7 +61,7 @@ class Leg:
     """Folder of an exported policy, whose weights a run without a checkpoint begins with."""
 
 
-def train(leg: Leg) -> dict[str, float]:
+def train(leg: TrainingLeg) -> dict[str, float]:
     """Train for some minutes or up to a step; return the last validation's ratios by variant.
 
     Raises
@@ -77,7 +77,7 @@ def train(leg: Leg) -> dict[str, float]:
     return ratios
 
 
-def _train(leg: Leg, rank: int, world: int) -> dict[str, float]:
+def _train(leg: TrainingLeg, rank: int, world: int) -> dict[str, float]:
     config, folder, max_steps = leg.config, leg.folder, leg.max_steps
     device = torch.device(leg.device)
     folder.mkdir(parents=True, exist_ok=True)
@@ -334,7 +334,7 @@ class Log:
 
 def main() -> None:
     """Train by what the command line states."""
-    leg = tyro.cli(Leg)
+    leg = tyro.cli(TrainingLeg)
     for name in (signal.SIGTERM, signal.SIGINT):
         signal.signal(name, lambda *_: STOP.set())
     print(train(leg))

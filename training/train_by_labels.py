@@ -194,7 +194,7 @@ def mean(values: Tensor, chosen: Tensor) -> Tensor:
     return torch.where(chosen, values, 0.0).sum() / chosen.sum().clamp_min(1)
 
 
-class Run:
+class LabelsRun:
     """What a checkpoint keeps: the policy, the mean of its weights, the optimiser, the step."""
 
     def __init__(self, config: LabelConfig, began_with: Path) -> None:
@@ -302,7 +302,7 @@ def right_order(policy: PolicyNetwork, plans: Sequence[Labelled],
 
 
 @dataclass(frozen=True)
-class Leg:
+class LabelsLeg:
     """Learn from labels; goes on from the checkpoint in the folder if there is one."""
 
     folder: Path
@@ -326,7 +326,7 @@ class Leg:
         return self.begin_with or Path("model/weights") / self.config.policy
 
 
-def train(leg: Leg) -> Run:
+def train(leg: LabelsLeg) -> LabelsRun:
     """Train for some minutes or up to a step; return the run.
 
     Raises
@@ -338,7 +338,7 @@ def train(leg: Leg) -> Run:
     folder.mkdir(parents=True, exist_ok=True)
     torch.manual_seed(config.seed)
     torch.set_num_threads(1)
-    run, buffer = Run(config, leg.began_with), Buffer(labels, config.kept)
+    run, buffer = LabelsRun(config, leg.began_with), Buffer(labels, config.kept)
     if (folder / "checkpoint.pt").exists():
         run.load(folder / "checkpoint.pt")
     buffer.refresh()
@@ -382,7 +382,7 @@ def log(path: Path, row: dict[str, float | None]) -> None:
 def main() -> None:
     """Learn by what the command line states."""
     os.environ.setdefault("OMP_NUM_THREADS", "1")
-    leg = tyro.cli(Leg)
+    leg = tyro.cli(LabelsLeg)
     for name in (signal.SIGTERM, signal.SIGINT):
         signal.signal(name, lambda *_: STOP.set())
     train(leg)

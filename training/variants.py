@@ -58,7 +58,7 @@ from training.fleets import (
     with_limits,
     with_shift,
 )
-from training.ground import Ground, draw_points, integer, lay_ground, log_uniform, uniform
+from training.ground import Square, draw_points, integer, lay_ground, log_uniform, uniform
 from training.orders import (
     DRONE,
     EITHER,
@@ -99,7 +99,7 @@ class InstanceConfig:
 
 
 def draw_ground(rng: np.random.Generator, num_customers: int, config: InstanceConfig,
-                num_depots: int = 1, noise: float = 0.0) -> Ground:
+                num_depots: int = 1, noise: float = 0.0) -> Square:
     """Draw points, side and speed."""
     layout = rng.random()
     clustered = 0.0
@@ -112,7 +112,7 @@ def draw_ground(rng: np.random.Generator, num_customers: int, config: InstanceCo
 
 
 def _scaled(rng: np.random.Generator, points: FloatArray, config: InstanceConfig,
-            num_depots: int = 1, noise: float = 0.0) -> Ground:
+            num_depots: int = 1, noise: float = 0.0) -> Square:
     return lay_ground(rng, points, num_depots, log_uniform(rng, *config.side_km),
                       log_uniform(rng, *config.speed_kmh), noise)
 
@@ -172,7 +172,7 @@ def solomon_vrptw(rng: np.random.Generator, num_customers: int,
                               ((1 - spread) * mean, (1 + spread) * mean))
 
 
-def _with_hard_windows(rng: np.random.Generator, ground: Ground, orders: Orders,
+def _with_hard_windows(rng: np.random.Generator, ground: Square, orders: Orders,
                        truck: VehicleType, day: float, share: float,
                        width: tuple[float, float]) -> Problem:
     """Finish an instance of one truck type; day and width in crossings."""
@@ -214,7 +214,7 @@ def appointed(rng: np.random.Generator, num_customers: int, config: InstanceConf
     return assemble(ground, orders, (truck,), travel)
 
 
-def _times_of_plan(rng: np.random.Generator, ground: Ground, service: IntArray,
+def _times_of_plan(rng: np.random.Generator, ground: Square, service: IntArray,
                    customers: int) -> tuple[IntArray, float]:
     """Return when each customer's service begins in a plan, and how long its longest trip takes.
 

@@ -24,7 +24,7 @@ from training.fleets import (
     with_limits,
     with_shift,
 )
-from training.ground import Ground, integer, log_uniform, uniform
+from training.ground import Square, integer, log_uniform, uniform
 from training.orders import (
     Orders,
     Reach,
@@ -77,7 +77,7 @@ def various(rng: np.random.Generator, num_customers: int, config: InstanceConfig
     return problem
 
 
-def _with_places(rng: np.random.Generator, kind: VehicleType, ground: Ground, orders: Orders,
+def _with_places(rng: np.random.Generator, kind: VehicleType, ground: Square, orders: Orders,
                  prices: Prices, travel: tuple[Travel, ...],
                  day: tuple[int, float]) -> tuple[VehicleType, Reach]:
     """Draw drones, trips, depots, shift and limits of a type."""
@@ -99,7 +99,7 @@ def _with_places(rng: np.random.Generator, kind: VehicleType, ground: Ground, or
     return with_limits(rng, kind, reach, orders.service_duration, ground, (0.4, 0.2)), reach
 
 
-def _timed(rng: np.random.Generator, orders: Orders, reach: Reach, ground: Ground,
+def _timed(rng: np.random.Generator, orders: Orders, reach: Reach, ground: Square,
            driving: float) -> Orders:
     """Draw windows, softness and release times."""
     width = log_uniform(rng, 0.5, 4.0) * ground.crossing
@@ -111,7 +111,7 @@ def _timed(rng: np.random.Generator, orders: Orders, reach: Reach, ground: Groun
     return orders
 
 
-def _on_duty(rng: np.random.Generator, kind: VehicleType, ground: Ground, prices: Prices,
+def _on_duty(rng: np.random.Generator, kind: VehicleType, ground: Square, prices: Prices,
              driving: float) -> VehicleType:
     """Draw overtime, what stops and loads cost, limits of trips, and a battery."""
     if rng.random() < 0.4:
@@ -135,7 +135,7 @@ def _on_duty(rng: np.random.Generator, kind: VehicleType, ground: Ground, prices
     return kind
 
 
-def _with_battery(rng: np.random.Generator, drones: DroneType, ground: Ground) -> DroneType:
+def _with_battery(rng: np.random.Generator, drones: DroneType, ground: Square) -> DroneType:
     """Return drones limited by a battery, too, or instead of the endurance.
 
     It lasts for whatever the endurance allows, or one of 0.3 to 3 crossings, with the payload

@@ -7,7 +7,7 @@ import typer
 
 from app.cli.file_errors import EXIT_BAD_INPUT, refuse
 from app.cli.opening import roads_of
-from app.plans.pictures.scene import Scene
+from app.plans.pictures.scene import DrawnPlan
 from app.requests.plan_reading import parse_plan
 from app.requests.reading import read_request
 from app.schemas.errors import RequestError
@@ -36,13 +36,13 @@ def plot(
         refuse(problem_file, error)
     try:
         with roads_of(Settings()) as roads:
-            scene = Scene.judged(request, parse_plan(plan_file.read_bytes()), roads)
+            scene = DrawnPlan.judged(request, parse_plan(plan_file.read_bytes()), roads)
     except RequestError as error:
         refuse(plan_file, error)
     output.write_bytes(_content(scene, ending))
 
 
-def _content(scene: Scene, ending: str) -> bytes:
+def _content(scene: DrawnPlan, ending: str) -> bytes:
     # Imported here: other commands needn't wait for matplotlib.
     from app.plans.pictures.drawing import draw_png, draw_svg
     from app.plans.pictures.page import draw_page

@@ -6,7 +6,7 @@ from functools import partial
 from math import ceil, floor
 from typing import NamedTuple
 
-from app.maps.airspace.zone import Limit
+from app.maps.airspace.zone import ZoneHeight
 from app.plans.changes import Changing
 from app.plans.remedies import remedies_reply, remedy_reply
 from app.plans.replies import Data
@@ -14,7 +14,7 @@ from app.plans.storms import HELD_BACK
 from app.requests.conversion.closings import Times
 from app.requests.conversion.ground import Ground
 from app.requests.conversion.places import PlacedRequest
-from app.requests.conversion.zones import Part
+from app.requests.conversion.zones import ZoneVolume
 from app.schemas.request import PlanRequest
 from model.judge.flight_diagnoses import CLOSED, NO_FLIGHT
 from model.judge.remedy import remedy_of
@@ -45,7 +45,7 @@ class Hindrance(NamedTuple):
     """What keeps drones from a customer, and what of the way there it holds."""
 
     holds: str
-    part: Part
+    part: ZoneVolume
     metres: float = 0.0  # that lie between, where the buffer alone holds it
     times: Times = ()  # when it is closed, if that isn't always
 
@@ -150,7 +150,7 @@ class Closures:
                     return self._hindrance(holds, part, node if holds == "customer" else depot)
         return None
 
-    def _hindrance(self, holds: str, part: Part, node: int) -> Hindrance:
+    def _hindrance(self, holds: str, part: ZoneVolume, node: int) -> Hindrance:
         between = 0.0 if holds == "way" else self.ground.metres_between(node, part)
         return Hindrance(holds, part, between, self.ground.times_of(part))
 
@@ -180,7 +180,7 @@ def hours_of(found: Hindrance) -> str:
     return f"The zone {found.part.zone.title} is closed to flights {', '.join(told)}."
 
 
-def words_of(part: Part) -> str:
+def words_of(part: ZoneVolume) -> str:
     """Return which zone it is, what it asks for, where it reaches, and who decides."""
     zone = part.zone
     whose = "." if zone.authority is None else f". Its authority: {zone.authority}."
@@ -203,7 +203,7 @@ def zone_reply(found: Hindrance, buffer: float) -> Data:
     return told
 
 
-def _height_reply(limit: Limit | None) -> Data | None:
+def _height_reply(limit: ZoneHeight | None) -> Data | None:
     if limit is None:
         return None
     return {"value": limit.value, "unit": limit.unit, "reference": limit.reference}

@@ -15,7 +15,7 @@ from app.requests.reading import read_request
 from app.requests.warnings.finding import warnings_of
 from app.serving.children.child import Call, Listeners
 from app.serving.children.pool import Pool
-from app.serving.load.abandoned import Turns
+from app.serving.load.abandoned import WaitingTurns
 from app.serving.load.received import ReceivedBody
 from app.serving.observe.metrics import Metrics
 
@@ -51,14 +51,15 @@ class PlanDesk:
         self._listeners: Listeners = {PLAN: count, VROOM_PLAN: metrics.count_vroom_plan,
                                       REFUSED: lambda _: metrics.count_refused_plan()}
 
-    async def answer(self, planning: Turns, request: Request, function: Callable[..., Any],
+    async def answer(self, planning: WaitingTurns, request: Request, function: Callable[..., Any],
                      *args: Any) -> Any:
         """Return what a function of `answers` says when its turn comes.
 
         Raises
         ------
         RequestError
-            Whatever it finds wrong, as `Turns.run` does, or if the process died that it ran in.
+            Whatever it finds wrong, as `WaitingTurns.run` does, or if the process died that it
+            ran in.
         """
         return await planning.run(
             request, lambda should_stop: self.do(function, *args, should_stop=should_stop))

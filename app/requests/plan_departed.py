@@ -20,7 +20,7 @@ def replan_error(code: ErrorCode, path: Path, message: str) -> InputError:
 
 
 @dataclass(frozen=True)
-class Begun:
+class DepartedPart:
     """The part of a trip that has departed."""
 
     left: int  # stops
@@ -31,21 +31,21 @@ class Begun:
         return bool(self.left or self.launched)
 
 
-def begun_of(trip: TripInput, kind: VehicleTypeInput | None, now: int) -> Begun:
+def begun_of(trip: TripInput, kind: VehicleTypeInput | None, now: int) -> DepartedPart:
     left, durations = 0, launch_durations(kind, trip)
     while left < len(trip.stops) and thousandths(trip.stops[left].departure) <= now:
         left += 1
-    return Begun(left, tuple(
+    return DepartedPart(left, tuple(
         index for index, sortie in enumerate(trip.sorties)
         if thousandths(sortie.launch_time) - durations[index] <= now), durations)
 
 
-def as_whole(trip: TripInput, begun: Begun) -> Begun:
+def as_whole(trip: TripInput, begun: DepartedPart) -> DepartedPart:
     """Return a trip that has begun as one that is made to its end."""
     return replace(begun, left=len(trip.stops), launched=tuple(range(len(trip.sorties))))
 
 
-def committed(trip: TripInput, begun: Begun) -> Iterator[tuple[Path, str]]:
+def committed(trip: TripInput, begun: DepartedPart) -> Iterator[tuple[Path, str]]:
     """Yield the customers of a trip to whom a vehicle is on its way, or where a drone is met."""
     meetings = {trip.sorties[index].recovery_stop for index in begun.launched}
     for place, stop in enumerate(trip.stops):
@@ -56,7 +56,7 @@ def committed(trip: TripInput, begun: Begun) -> Iterator[tuple[Path, str]]:
             yield ("sorties", flight, "customers", place), visit.id
 
 
-def order_errors(path: Path, trip: TripInput, begun: Begun, last_end: int,
+def order_errors(path: Path, trip: TripInput, begun: DepartedPart, last_end: int,
                   is_done: bool) -> Errors:
     """What of a trip that has begun can't have happened in the order of its times."""
     time = last_end
@@ -74,7 +74,7 @@ def order_errors(path: Path, trip: TripInput, begun: Begun, last_end: int,
         yield from _flight_errors((*path, "sorties", flight), trip, flight, begun, is_done)
 
 
-def _flight_errors(path: Path, trip: TripInput, flight: int, begun: Begun,
+def _flight_errors(path: Path, trip: TripInput, flight: int, begun: DepartedPart,
                    is_done: bool) -> Errors:
     sortie = trip.sorties[flight]
     place = trip.stops[sortie.launch_stop]

@@ -7,7 +7,7 @@ from app.requests.conversion.names import drone_number, number_in, read_name
 from app.requests.conversion.units import thousandths
 from app.requests.ends import named_otherwise
 from app.requests.plan_departed import (
-    Begun, Errors, Path, as_whole, begun_of, committed, is_there, names_gone, order_errors,
+    DepartedPart, Errors, Path, as_whole, begun_of, committed, is_there, names_gone, order_errors,
     truck_of,
 )
 from app.requests.plan_departed import replan_error as _error
@@ -156,7 +156,7 @@ class _Checker:
                 and stop.id not in self._names.sites)
 
     def _begun_errors(self, path: Path, trip: TripInput, kind: VehicleTypeInput,
-                      begun: Begun) -> Errors:
+                      begun: DepartedPart) -> Errors:
         """What of a trip that has begun the request doesn't have."""
         count = sum(drones.count for drones in kind.drone_types)
         for index in begun.launched:
@@ -182,7 +182,7 @@ class _Checker:
                              "kind.")
 
     def _gone_errors(self, path: Path, trip: TripInput, kind: VehicleTypeInput,
-                     begun: Begun) -> Errors:
+                     begun: DepartedPart) -> Errors:
         """Depots, launch sites and breaks of a trip that the request has no more, too late for it.
 
         Whoever makes the trip to its end stops at all its places; breaks may still be left out that

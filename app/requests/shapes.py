@@ -40,7 +40,7 @@ class LooseMap(Loose):
     most: int
 
 
-class Row:
+class NumberRow:
     """An array of numbers, of which there may be very many: each is read, looked at and let go."""
 
     entries: Any
@@ -72,7 +72,7 @@ def _look_at(kind: type, value: object) -> object:
     ValueError
         If it is none of the kind.
     """
-    if issubclass(kind, Row):
+    if issubclass(kind, NumberRow):
         try:
             msgspec.convert(value, kind.entries)
         except msgspec.ValidationError as error:
@@ -191,7 +191,7 @@ class _Builder:
             min_length=min(each.get("minItems", 0) for each in some), max_length=most)]
         if (most is None or most > LONG) and entries and all(
                 each.get("type") in _NUMBERS for each in entries):
-            return type("NumberRow", (Row,), {"entries": listed})
+            return type("NumberRow", (NumberRow,), {"entries": listed})
         return listed
 
     def _string(self, some: list[Schema]) -> Any:
@@ -221,7 +221,7 @@ def _is_loose(part: Any) -> bool:
 
 
 def _is_row(part: Any) -> bool:
-    return isinstance(part, type) and issubclass(part, Row)
+    return isinstance(part, type) and issubclass(part, NumberRow)
 
 
 def _largest(bounds: list[Any]) -> Any:

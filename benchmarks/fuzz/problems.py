@@ -304,9 +304,8 @@ def _customer_stops(trip: Data) -> list[Data]:
 
 def _visits(trip: Data) -> list[Data]:
     """Return what a trip does for each of its customers; ends of shipments are none."""
-    return [*_customer_stops(trip),
-            *(visit for sortie in trip["sorties"] for visit in sortie["customers"]
-              if "kind" not in visit)]
+    flown = [visit for sortie in trip["sorties"] for visit in sortie["customers"]]
+    return [*_customer_stops(trip), *(visit for visit in flown if "kind" not in visit)]
 
 
 def damaged(rng: random.Random, plan: Data) -> Data:

@@ -29,7 +29,7 @@ from model.engine.structs import Struct
 from model.engine.share_rows import write_shares
 from model.engine.type_rows import limit, most_sorties, rate_row, write_type
 from model.engine.variants import (
-    Variant, Way, durations_of, variant_of, ways_of, weighed_variant_of, write_legs,
+    Variant, Variation, durations_of, variant_of, ways_of, weighed_variant_of, write_legs,
 )
 from model.problem import (
     Customer, IntArray, Problem, has_timed_zones, shares_chargers,
@@ -138,7 +138,8 @@ def _num_changes(problems: Sequence[Problem]) -> int:
 
 
 def _pack_row(instance: Instance, row: int, problem: Problem, kinds: Sequence[Kind],
-              durations: dict[Variant, IntArray], ways: Sequence[Way], for_policies: bool) -> None:
+              durations: dict[Variant, IntArray], ways: Sequence[Variation],
+              for_policies: bool) -> None:
     """Write one problem. In place."""
     instance.size[row] = (problem.num_depots, problem.num_customers, len(problem.vehicle_types),
                           problem.num_dimensions)

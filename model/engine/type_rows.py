@@ -9,7 +9,7 @@ from model.engine.breaks import Fields, driver_fields, longest_travel
 from model.engine.library import dtype_of
 from model.engine.records import Record
 from model.engine.share_rows import UNUSED
-from model.engine.variants import Way, index_of, way_of
+from model.engine.variants import Variation, index_of, way_of
 from model.problem import MS_PER_HOUR, UNLIMITED, DroneType, Energy, VehicleType
 
 MOST_DRONES = 256
@@ -26,7 +26,7 @@ WORK_RATES = "time", "overtime"
 """The rates per hour of what a vehicle's work costs."""
 
 
-def write_type(row: Record, kind: VehicleType, ways: Sequence[Way], **others: int) -> None:
+def write_type(row: Record, kind: VehicleType, ways: Sequence[Variation], **others: int) -> None:
     """Write what the engine knows of a type, by field, and `others` that it alone can't tell. In
     place.
 
@@ -113,9 +113,10 @@ def _worked(kind: VehicleType) -> int:
     return 0 if kind.works_since is None else kind.earliest - kind.works_since
 
 
-def _drones(drones: DroneType, ways: Sequence[Way]) -> Fields:
-    out, home = (index_of(ways, Way(drones.travel, sets_up)) for sets_up in (True, False))
-    straight = out if drones.max_range is None else index_of(ways, Way(drones.straight, False))
+def _drones(drones: DroneType, ways: Sequence[Variation]) -> Fields:
+    out, home = (index_of(ways, Variation(drones.travel, sets_up)) for sets_up in (True, False))
+    straight = (out if drones.max_range is None
+                else index_of(ways, Variation(drones.straight, False)))
     relaunch = drones.launch_duration + drones.swap_duration
     return {"drones": drones.count, "drone_travel": out, "home_travel": home,
             "endurance": drones.endurance, "waiting_counts": drones.endurance_includes_waiting,
@@ -125,12 +126,12 @@ def _drones(drones: DroneType, ways: Sequence[Way]) -> Fields:
             "payload": drones.capacity}
 
 
-def _itself(kind: VehicleType, ways: Sequence[Way]) -> Fields:
+def _itself(kind: VehicleType, ways: Sequence[Variation]) -> Fields:
     """Return what is said of drones, of a vehicle that has none; it may fly by itself."""
     if not kind.flies:
         return {"drones": 0, "endurance": 0, "max_range": 0}
     travel = index_of(ways, way_of(kind, True))
-    straight = travel if kind.max_range is None else index_of(ways, Way(kind.straight, False))
+    straight = travel if kind.max_range is None else index_of(ways, Variation(kind.straight, False))
     return {"drones": 0, "drone_travel": travel, "home_travel": travel,
             "straight_travel": straight, "waiting_counts": True,
             "relaunch_duration": kind.launch_duration, "max_range": limit(kind.max_range)}

@@ -19,7 +19,7 @@ Variant = tuple[bytes, int | None]
 load weighs."""
 
 
-class Way(NamedTuple):
+class Variation(NamedTuple):
     """Legs of one travel, to whose durations setups, launches and recoveries are added or not."""
 
     travel: int  # index into Problem.travel
@@ -77,30 +77,30 @@ def weighed_variant_of(kind: VehicleType, problem: Problem,
     return list(durations).index((_served_by(kind, problem).tobytes(), kind.energy.dimension))
 
 
-def way_of(kind: VehicleType, sets_up: bool) -> Way:
+def way_of(kind: VehicleType, sets_up: bool) -> Variation:
     """Return the legs by which vehicles of a type travel, with setups where any are told apart."""
-    return Way(kind.travel, sets_up and kind.speed_profile is None, kind.launch_duration,
-               kind.recovery_duration)
+    return Variation(kind.travel, sets_up and kind.speed_profile is None, kind.launch_duration,
+                     kind.recovery_duration)
 
 
-def ways_of(problem: Problem) -> list[Way]:
+def ways_of(problem: Problem) -> list[Variation]:
     """Return all ways to travel that legs are needed of."""
     if not has_setups(problem):
-        plain = dict.fromkeys(Way(travel, False) for travel in range(len(problem.travel)))
+        plain = dict.fromkeys(Variation(travel, False) for travel in range(len(problem.travel)))
         return list(plain | dict.fromkeys(way_of(kind, False) for kind in problem.vehicle_types))
-    ways: dict[Way, None] = {}
+    ways: dict[Variation, None] = {}
     for kind in problem.vehicle_types:
         ways[way_of(kind, True)] = None
         if kind.max_range is not None:
-            ways[Way(kind.straight, False)] = None
+            ways[Variation(kind.straight, False)] = None
         for drones in kind.drone_types:
-            ways |= {Way(drones.travel, True): None, Way(drones.travel, False): None}
+            ways |= {Variation(drones.travel, True): None, Variation(drones.travel, False): None}
             if drones.max_range is not None:
-                ways[Way(drones.straight, False)] = None
+                ways[Variation(drones.straight, False)] = None
     return list(ways)
 
 
-def are_stated(problem: Problem, ways: Sequence[Way]) -> bool:
+def are_stated(problem: Problem, ways: Sequence[Variation]) -> bool:
     """Tell whether no leg is computed where it is looked up, and all fit 32 bits with setups."""
     setup = max([customer.setup_duration for customer in problem.customers], default=0)
     for way in ways:
@@ -111,12 +111,12 @@ def are_stated(problem: Problem, ways: Sequence[Way]) -> bool:
     return True
 
 
-def index_of(ways: Sequence[Way], way: Way) -> int:
+def index_of(ways: Sequence[Variation], way: Variation) -> int:
     """Return which legs are those of a way, with setups if any are told apart."""
     return ways.index(way if way in ways else way._replace(sets_up=False))
 
 
-def write_legs(problem: Problem, ways: Sequence[Way], setup: Records, duration: IntArray,
+def write_legs(problem: Problem, ways: Sequence[Variation], setup: Records, duration: IntArray,
                distance: IntArray, pause: Pause) -> None:
     """Write the legs of all ways, (way, origin, to); `setup` has those at nodes. In place."""
     nodes = problem.num_nodes

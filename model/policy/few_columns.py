@@ -16,7 +16,7 @@ ROUNDING = 1e-9
 """Share of a cost that is lost by adding up otherwise."""
 
 
-class TooManyError(Exception):
+class TooManyColumnsError(Exception):
     """There is more to try than pays."""
 
 
@@ -78,7 +78,7 @@ class _Trial:
                 return
             self._left -= 1
             if self._left < 0:
-                raise TooManyError
+                raise TooManyColumnsError
             own = int.from_bytes(self._rows[index].tobytes(), "little")
             left = [free - used for free, used
                     in zip(room, self._limited[index].tolist(), strict=True)]

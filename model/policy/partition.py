@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from model.engine.alarm import has_rung
-from model.policy.few_columns import FEW, TooManyError, cheapest_by_trying
+from model.policy.few_columns import FEW, TooManyColumnsError, cheapest_by_trying
 from model.problem import BoolArray, FloatArray, IntArray
 
 if TYPE_CHECKING:
@@ -50,7 +50,7 @@ def cheapest_partition(columns: Sequence[IntArray], cost: FloatArray, room: IntA
     if has_rung(alarm):
         return None
     if sum([len(column) > 1 for column in columns]) <= FEW:
-        with suppress(TooManyError):
+        with suppress(TooManyColumnsError):
             return cheapest_by_trying(columns, cost, room, known)
     chosen = _chosen(columns, cost * (KNOWN / known), room, alarm)
     # A solver's word isn't taken for it.

@@ -34,7 +34,7 @@ LEAST_SAVING = 1e-9
 """Share of the cost by which a plan has to be cheaper, so that it isn't but otherwise rounded."""
 
 
-class Route(NamedTuple):
+class PooledRoute(NamedTuple):
     """What a vehicle does."""
 
     actions: IntArray  # (action,) codes, from its opening on
@@ -56,7 +56,7 @@ class RoutePool:
         self._instance = instance
         # Packed once, since plans come by the hundred.
         self._alone = packed(instance), reset(instance, np.zeros(1, np.int64))
-        self._routes: dict[tuple[int, bytes], Route] = {}
+        self._routes: dict[tuple[int, bytes], PooledRoute] = {}
         self._by_actions: dict[bytes, tuple[int, bytes]] = {}
         goods = instance.goods
         # What hangs on other vehicles can't be made alone.
@@ -74,7 +74,7 @@ class RoutePool:
         price_routes(*self._alone, 0, np.concatenate(new), price)
         for codes, cost in zip(new, by_term(price).sum(axis=1).tolist(), strict=True):
             nodes = self._places_of(codes[serves(codes)] // NUM_KINDS)
-            route = Route(codes, int(codes[0] // NUM_KINDS), nodes, cost)
+            route = PooledRoute(codes, int(codes[0] // NUM_KINDS), nodes, cost)
             key = route.type, nodes.tobytes()
             self._by_actions[codes.tobytes()] = key
             if key not in self._routes or cost < self._routes[key].cost:
@@ -140,8 +140,8 @@ class RoutePool:
             return best
         return Rollout(np.concatenate([NOTHING.actions, *(route.actions for route in plan)]), cost)
 
-    def _cheapest(self, kept: Sequence[Route], old: Sequence[Route],
-                  alarm: IntArray) -> list[Route] | None:
+    def _cheapest(self, kept: Sequence[PooledRoute], old: Sequence[PooledRoute],
+                  alarm: IntArray) -> list[PooledRoute] | None:
         """Return the cheapest routes in the place of old ones beside those kept; None if none."""
         may_serve = ~_served(self._instance, kept)
         left_out = may_serve & ~_served(self._instance, old)
@@ -163,7 +163,7 @@ class RoutePool:
             return None
         return [routes[index] for index in np.flatnonzero(chosen[:len(routes)]).tolist()]
 
-    def _cost(self, routes: Sequence[Route], left_out: BoolArray) -> float:
+    def _cost(self, routes: Sequence[PooledRoute], left_out: BoolArray) -> float:
         return sum(route.cost for route in routes) + float(self._penalties(left_out).sum())
 
     def _penalties(self, left_out: BoolArray) -> FloatArray:
@@ -179,7 +179,7 @@ def _split(actions: IntArray) -> list[IntArray]:
     return np.split(actions, opened)[1:]
 
 
-def _served(instance: Instance, routes: Sequence[Route]) -> BoolArray:
+def _served(instance: Instance, routes: Sequence[PooledRoute]) -> BoolArray:
     """Return (node,) whom routes serve; depots, and what isn't there, count as served."""
     size = instance.size[0]
     served = np.ones(instance.node.shape[2], np.bool_)
@@ -189,7 +189,7 @@ def _served(instance: Instance, routes: Sequence[Route]) -> BoolArray:
     return served
 
 
-def _by_type(instance: Instance, routes: Sequence[Route]) -> IntArray:
+def _by_type(instance: Instance, routes: Sequence[PooledRoute]) -> IntArray:
     """Return (type,) how many routes there are."""
     types = np.array([route.type for route in routes], np.int64)
     return np.bincount(types, minlength=instance.type.shape[1])

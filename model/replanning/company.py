@@ -10,10 +10,10 @@ from model.judge.timing import RouteDecision
 from model.problem import BoolArray, Problem, Relation
 from model.replanning.amend import customers_of, without
 from model.replanning.kept import Kept
-from model.replanning.workers import Worker
+from model.replanning.workers import VehicleWorker
 
 
-def relations_left(problem: Problem, owners: Mapping[int, Worker],
+def relations_left(problem: Problem, owners: Mapping[int, VehicleWorker],
                    number: Mapping[int, int]) -> tuple[Relation, ...]:
     """Return what relations say of those who are left, by their numbers there.
 
@@ -38,7 +38,7 @@ def relations_left(problem: Problem, owners: Mapping[int, Worker],
 
 
 def company_table(problem: Problem, kept: Mapping[Vehicle, Kept], kinds: Sequence[int],
-                  owners: Mapping[int, Worker], nodes: Sequence[int]) -> BoolArray:
+                  owners: Mapping[int, VehicleWorker], nodes: Sequence[int]) -> BoolArray:
     """Return (type, customer) whom relations let each vehicle serve, by who is settled."""
     table = np.ones((len(kinds), len(nodes)), np.bool_)
     for relation in problem.relations:
@@ -53,7 +53,7 @@ def company_table(problem: Problem, kept: Mapping[Vehicle, Kept], kinds: Sequenc
 
 
 def _may_join(problem: Problem, kept: Mapping[Vehicle, Kept], relation: Relation,
-              owner: Worker | None) -> bool:
+              owner: VehicleWorker | None) -> bool:
     """Tell whether a type, which is one vehicle's if it has an owner, may serve more of them."""
     those = frozenset(relation.nodes)
     there = {vehicle for vehicle, route in kept.items() if not those.isdisjoint(route.served)}
@@ -73,7 +73,7 @@ def _may_join(problem: Problem, kept: Mapping[Vehicle, Kept], relation: Relation
 
 
 def _keep_by_carriers(problem: Problem, relation: Relation, kept: Mapping[Vehicle, Kept],
-                      owners: Mapping[int, Worker], nodes: Sequence[int],
+                      owners: Mapping[int, VehicleWorker], nodes: Sequence[int],
                       table: BoolArray) -> None:
     """Let those who go with others whose parcels are aboard be served by that vehicle. In place."""
     those = frozenset(relation.nodes)

@@ -18,7 +18,7 @@ from model.replanning.company import company_table, relations_left
 from model.replanning.kept import Kept
 from model.replanning.shares import fairness_left
 from model.replanning.spans import flown_alone, spans_left, with_spans
-from model.replanning.workers import Worker, from_now_on
+from model.replanning.workers import VehicleWorker, from_now_on
 
 NOBODY, ANYBODY = -1, -2
 """Instead of the only type that may serve a customer."""
@@ -31,7 +31,7 @@ class Remainder:
     problem: Problem
     nodes: tuple[int, ...]  # of the whole problem
     kinds: tuple[int, ...]  # by type: that of the whole problem
-    workers: Mapping[int, Worker]  # types that are one vehicle
+    workers: Mapping[int, VehicleWorker]  # types that are one vehicle
 
     @property
     def num_plain(self) -> int:
@@ -79,7 +79,7 @@ class Remainder:
 
 
 def what_is_left(problem: Problem, past: Past, kept: Mapping[Vehicle, Kept],
-                 workers: Sequence[Worker]) -> Remainder | None:
+                 workers: Sequence[VehicleWorker]) -> Remainder | None:
     """Return what is left to plan; None if there is nobody to serve, or nobody who could.
 
     `past` knows which parcels are back at the depot.
@@ -123,7 +123,7 @@ def what_is_left(problem: Problem, past: Past, kept: Mapping[Vehicle, Kept],
 
 
 def _plain_types(problem: Problem, past: Past, kept: Mapping[Vehicle, Kept],
-                 workers: Sequence[Worker]) -> dict[int, VehicleType]:
+                 workers: Sequence[VehicleWorker]) -> dict[int, VehicleType]:
     """Return the types of vehicles that have done nothing yet, as many as there are."""
     taken = {*kept, *past.unavailable, *(worker.vehicle for worker in workers)}
     plain = {}
@@ -135,7 +135,7 @@ def _plain_types(problem: Problem, past: Past, kept: Mapping[Vehicle, Kept],
     return plain
 
 
-def _table(problem: Problem, past: Past, kinds: Sequence[int], owners: Mapping[int, Worker],
+def _table(problem: Problem, past: Past, kinds: Sequence[int], owners: Mapping[int, VehicleWorker],
            nodes: Sequence[int]) -> BoolArray:
     """Return (type, customer) who may serve whom of those who are left.
 
@@ -158,7 +158,7 @@ def _table(problem: Problem, past: Past, kinds: Sequence[int], owners: Mapping[i
 
 
 def _sites(problem: Problem, kept: Mapping[Vehicle, Kept], kinds: Sequence[int],
-           owners: Mapping[int, Worker]) -> tuple[tuple[Depot, ...], BoolArray | None]:
+           owners: Mapping[int, VehicleWorker]) -> tuple[tuple[Depot, ...], BoolArray | None]:
     """Return the depots, and (type, depot) who may stop at launch sites.
 
     Where somebody had to be served before who has been, that vehicle alone comes back.
@@ -198,7 +198,7 @@ def _start(problem: Problem, node: int, vehicle: str) -> Depot:
 
 
 def _goods_table(problem: Problem, kept: Mapping[Vehicle, Kept], kinds: Sequence[int],
-                 owners: Mapping[int, Worker], nodes: Sequence[int]) -> BoolArray:
+                 owners: Mapping[int, VehicleWorker], nodes: Sequence[int]) -> BoolArray:
     """Return (type, customer) whose goods may join what each vehicle has carried today."""
     table = np.ones((len(kinds), len(nodes)), np.bool_)
     for kind, owner in owners.items() if problem.incompatible_goods else ():
@@ -224,7 +224,7 @@ def _goods_of(problem: Problem, nodes: Collection[int]) -> frozenset[str]:
 
 
 def _customer_left(problem: Problem, past: Past, kept: Mapping[Vehicle, Kept], node: int,
-                   carrier: Worker | None) -> Customer:
+                   carrier: VehicleWorker | None) -> Customer:
     """Return a customer who is left, whose parcel may be aboard a vehicle already."""
     customer = _back(problem.customer_at(node), past.returned.get(node, 0))
     limit = customer.max_time_aboard

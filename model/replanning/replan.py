@@ -25,7 +25,7 @@ from model.replanning.parted import parted_shipments, with_parted
 from model.replanning.reasons import barred_reason, bound_reasons
 from model.replanning.refusing import as_given, gone_from, refuse
 from model.replanning.remainder import Remainder, what_is_left
-from model.replanning.workers import Worker, find_workers
+from model.replanning.workers import VehicleWorker, find_workers
 from model.solution import Route, Solution, renumbered
 
 UNREADABLE = frozenset({"UNKNOWN_TYPE", "UNKNOWN_NODE", "DEPOT", "COUNT",
@@ -329,7 +329,7 @@ def _kept_by(problem: Problem, plan: Solution,
 
 
 def _through(problem: Problem, plan: Solution, past: Past, kept: Mapping[Vehicle, Kept],
-             workers: Collection[Worker]) -> dict[Vehicle, Kept]:
+             workers: Collection[VehicleWorker]) -> dict[Vehicle, Kept]:
     """Return vehicles that drive their trips as planned, as no worker can go on with them."""
     going_on = {worker.vehicle for worker in workers if worker.is_under_way}
     found = {}

@@ -8,11 +8,11 @@ from model.judge.fairness import share_of
 from model.judge.past import Past, Vehicle
 from model.problem import Before, Fairness, Measure, Problem
 from model.replanning.kept import Kept
-from model.replanning.workers import Worker
+from model.replanning.workers import VehicleWorker
 
 
 def fairness_left(problem: Problem, past: Past, kept: Mapping[Vehicle, Kept],
-                  owners: Mapping[int, Worker]) -> Fairness:
+                  owners: Mapping[int, VehicleWorker]) -> Fairness:
     """Return prices of what is left of a plan as a whole, beside what has been done.
 
     `owners` are the types that are one vehicle, by their index.

@@ -32,7 +32,7 @@ class TooManyTypesError(ValueError):
 
 
 @dataclass(frozen=True)
-class Worker:
+class VehicleWorker:
     """What one vehicle, and no other, does from now on."""
 
     vehicle: Vehicle
@@ -52,7 +52,7 @@ def vehicle_name(problem: Problem, vehicle: Vehicle) -> str:
     return problem.vehicle_types[vehicle.type].vehicle_name(vehicle.number)
 
 
-def find_workers(problem: Problem, past: Past, kept: Mapping[Vehicle, Kept]) -> list[Worker]:
+def find_workers(problem: Problem, past: Past, kept: Mapping[Vehicle, Kept]) -> list[VehicleWorker]:
     """Return who becomes a type of its own."""
     workers = []
     for route in kept.values():
@@ -78,18 +78,18 @@ def find_workers(problem: Problem, past: Past, kept: Mapping[Vehicle, Kept]) -> 
     return [_with_drones_left(worker, past) for worker in workers]
 
 
-def _others(problem: Problem, past: Past, kept: Mapping[Vehicle, Kept]) -> list[Worker]:
+def _others(problem: Problem, past: Past, kept: Mapping[Vehicle, Kept]) -> list[VehicleWorker]:
     """Return who has done nothing yet, and has customers pinned to it or drones grounded."""
     workers = []
     for vehicle in dict.fromkeys((*past.pinned.values(), *past.grounded)):
         kind = from_now_on(problem.vehicle_types[vehicle.type], past.now)
         if vehicle not in kept and vehicle not in past.unavailable and kind is not None:
-            workers.append(Worker(vehicle, replace(kind, id=vehicle_name(problem, vehicle),
-                                                   count=1, numbers=())))
+            workers.append(VehicleWorker(vehicle, replace(kind, id=vehicle_name(problem, vehicle),
+                                                          count=1, numbers=())))
     return workers
 
 
-def _with_drones_left(worker: Worker, past: Past) -> Worker:
+def _with_drones_left(worker: VehicleWorker, past: Past) -> VehicleWorker:
     """Return a vehicle without the drones that are grounded, its others numbered anew."""
     kind, grounded = worker.kind, past.grounded_on(worker.vehicle)
     if kind.flies:
@@ -216,7 +216,7 @@ def _can_go_on(problem: Problem, route: Kept, aboard: Sequence[int], home_by: in
                  or travel_duration(route.route.trips) <= kind.max_travel_duration))
 
 
-def _rest_of_trip(problem: Problem, route: Kept, way_on: WayOn, home_by: int) -> Worker:
+def _rest_of_trip(problem: Problem, route: Kept, way_on: WayOn, home_by: int) -> VehicleWorker:
     """Return what a vehicle can do on the trip that it is on."""
     kind, trip = problem.vehicle_types[route.vehicle.type], route.decision.trips[-1]
     stops, sorties = _counts_left(problem, route)
@@ -234,11 +234,11 @@ def _rest_of_trip(problem: Problem, route: Kept, way_on: WayOn, home_by: int) ->
         busy_until=way_on.ready + way_on.service_left, works_since=way_on.ready)
     own = charged_then(problem, own, route.route.trips[-1], way_on.ready)
     place = trip.nodes[way_on.position]
-    return Worker(route.vehicle, own, way_on.aboard, place)
+    return VehicleWorker(route.vehicle, own, way_on.aboard, place)
 
 
 def _later(problem: Problem, past: Past, route: Kept, home: int, home_by: int,
-           travelled: int) -> Worker | None:
+           travelled: int) -> VehicleWorker | None:
     """Return what trips a vehicle can begin that is back at `home`; None if there are none."""
     kind = problem.vehicle_types[route.vehicle.type]
     ready = max(past.now, home + kind.reload_duration)
@@ -253,7 +253,7 @@ def _later(problem: Problem, past: Past, route: Kept, home: int, home_by: int,
                   charge_left=_charge_left(problem, route, ready))
     own = replace(own, works_since=home) if kind.cost_per_hour else own
     rested = with_clock(kind, own, route.route, home)
-    return None if rested is None else Worker(route.vehicle, rested)
+    return None if rested is None else VehicleWorker(route.vehicle, rested)
 
 
 def _charge_left(problem: Problem, route: Kept, ready: int) -> tuple[int, ...]:

@@ -14,10 +14,10 @@ from collections.abc import Callable
 from model.engine.alarm import Alarm
 from model.engine.library import call
 from model.problem import UNLIMITED
-from model.search.limits import Span
+from model.search.limits import Cooling
 from model.search.route.layout import ProblemData
 from model.search.route.state import Searcher
-from model.search.worker import Worker
+from model.search.worker import SearchThread
 
 MOST_ROUNDS = 10**9
 """More than there is time for."""
@@ -41,7 +41,7 @@ def can_eject(data: ProblemData) -> bool:
     return bool(once and anyhow and paired and data.place.shape[2] == 1 and not own)
 
 
-def by_ejection(data: ProblemData, searcher: Searcher, workers: list[Worker], span: Span,
+def by_ejection(data: ProblemData, searcher: Searcher, workers: list[SearchThread], span: Cooling,
                 gently: bool = False) -> Callable[[], bool] | None:
     """Return what inserts all shipments left out among the routes; None where that can't be.
 

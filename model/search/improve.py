@@ -24,7 +24,7 @@ from model.search.fewer_vehicles import FEWER_SHARE, search_fewer
 from model.search.first_plan import first_plan
 from model.search.neighbourhood.neighbourhood import Neighbourhood, make_neighbourhood
 from model.search.linked.layout import Linked
-from model.search.limits import WHOLE, Limits, Span
+from model.search.limits import WHOLE, Cooling, SearchLimits
 from model.search.linked_rooms import linked_rooms
 from model.search.memetic import spans_of_rest
 from model.search.problem_data import make_data, only_loads_limit
@@ -34,7 +34,7 @@ from model.search.sharing import Crew, go_on_from_best
 from model.search.starts import Starting, Starts, starting_of
 from model.search.strategy import ALL_MOVES, Moves
 from model.search.temperature import Heat
-from model.search.worker import Worker
+from model.search.worker import SearchThread
 from model.solution import Solution, renumbered
 
 BY_TRUCK_FROM, BY_TRUCK_SHARE = 30, 0.15
@@ -118,12 +118,12 @@ class _Team:
     """All threads."""
 
     whole: Searcher
-    workers: list[Worker]
-    limits: Limits
+    workers: list[SearchThread]
+    limits: SearchLimits
     pool: ThreadPoolExecutor
     after_round: Callable[[int], None]  # told of the turns of all
 
-    def over(self, span: Span = WHOLE) -> bool:
+    def over(self, span: Cooling = WHOLE) -> bool:
         """Tell whether the search, or a span of it, ends."""
         return self.limits.over(self.workers[0].turns, span)
 
@@ -132,7 +132,7 @@ class _Team:
         turns = self.workers[0].turns
         return 1.0 if self.over() else self.limits.share(turns)
 
-    def search(self, crew: Crew | Starts, span: Span, rounds: float = math.inf) -> None:
+    def search(self, crew: Crew | Starts, span: Cooling, rounds: float = math.inf) -> None:
         """Search in rounds until the end of a span, or for a number of rounds; for one at least."""
         while True:
             stay = STAY if self._is_in_parts() else 0
@@ -141,7 +141,7 @@ class _Team:
                 part.count.stay = stay
                 if stay == 0:
                     part.count.focus = NOWHERE
-            list(self.pool.map(Worker.run, self.workers))
+            list(self.pool.map(SearchThread.run, self.workers))
             crew.gather()
             self.after_round(sum(worker.turns for worker in self.workers))
             rounds -= 1
@@ -215,9 +215,9 @@ def improve(problem: Problem, instance: Instance, solution: Solution, config: Se
         neighbourhood = make_neighbourhood(
             problem, instance, pausing(should_stop, latest, GRACE), along=True)
         with Alarm(max(end, time.perf_counter() + grace), should_stop) as alarm:
-            limits = Limits(began, end,
-                            None if config.turns is None else config.turns // config.threads,
-                            lambda: alarm.has_rung or should_stop())
+            limits = SearchLimits(began, end,
+                                  None if config.turns is None else config.turns // config.threads,
+                                  lambda: alarm.has_rung or should_stop())
             task = _Task(problem, instance, neighbourhood, config, limits, alarm, reading,
                          given_cost if solution.routes else math.inf)
             trucks_first = not solution.routes and _trucks_come_first(problem, config.moves)
@@ -241,7 +241,7 @@ class _Task:
     instance: Instance
     neighbourhood: Neighbourhood
     config: SearchConfig
-    limits: Limits
+    limits: SearchLimits
     alarm: Alarm
     reading: Reading
     given_cost: float = math.inf  # of the plan that is given
@@ -264,7 +264,7 @@ def _improved(task: _Task, solution: Solution, from_trucks: bool,
     limits.reading = task.reading(*call("tandem_size_of_best", whole))
     heat = Heat.of(data, whole, is_large, from_trucks, config.hot, config.cold)
     first_cost = float(whole.value.cost)
-    workers = [Worker(data, whole, limits, heat, cooled=config.cooled, linked=room)
+    workers = [SearchThread(data, whole, limits, heat, cooled=config.cooled, linked=room)
                for room in linked]
 
     node = numbering.node.tolist()
@@ -333,12 +333,12 @@ def _search(team: _Team, data: ProblemData, crew: Crew,
     if starting is not None and starts is not None and (count := team.num_starts(starting)) > 1:
         ends = np.linspace(team.limits.share(first.turns), starting.share, count + 1)
         for number, end in enumerate(ends[1:].tolist()):
-            span = Span(team.limits.share(first.turns), end, 1.0)
+            span = Cooling(team.limits.share(first.turns), end, 1.0)
             if not team.over(span):
                 starts.begin(starting.anew and number > 0)
                 team.search(starts, span)
         go_on_from_best(data, whole)
-        rest = Span(team.limits.share(first.turns), 1.0, REHEAT)
+        rest = Cooling(team.limits.share(first.turns), 1.0, REHEAT)
     if not team.over():
         team.search(crew, rest)
 
@@ -347,7 +347,7 @@ def _search_by_fewer(team: _Team, data: ProblemData, crew: Crew) -> None:
     """Search for plans by fewer vehicles first, then for shorter ones. In place."""
     first = team.workers[0]
     team.search(crew, WHOLE, rounds=1)
-    span = Span(team.limits.share(first.turns), FEWER_SHARE, 1.0)
+    span = Cooling(team.limits.share(first.turns), FEWER_SHARE, 1.0)
     if not team.over(span):
         search_fewer(data, team.whole, lambda: team.search(crew, span, rounds=1),
                      lambda: team.over(span), by_ejection(data, team.whole, team.workers, span))

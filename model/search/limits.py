@@ -16,7 +16,7 @@ LONGEST_ROUND = 0.5
 
 
 @dataclass(frozen=True)
-class Span:
+class Cooling:
     """A part of the search in which it cools down once."""
 
     begin: float  # share of the search
@@ -28,11 +28,11 @@ class Span:
         return min(1.0, max(0.0, (whole - self.begin) / (self.end - self.begin)))
 
 
-WHOLE = Span(0.0, 1.0, 1.0)
+WHOLE = Cooling(0.0, 1.0, 1.0)
 
 
 @dataclass
-class Limits:
+class SearchLimits:
     """When a search ends, for each thread; earlier, the more its plan takes to read."""
 
     began: float
@@ -55,13 +55,13 @@ class Limits:
             return 1.0
         return (now - self.began) / (self.deadline - self.began)
 
-    def span_end(self, span: Span) -> tuple[float, float]:
+    def span_end(self, span: Cooling) -> tuple[float, float]:
         """Return after how many turns and when a span ends."""
         if self.turns is not None:
             return math.ceil(self.turns * span.end), self.deadline
         return math.inf, self.began + (self.deadline - self.began) * span.end
 
-    def round_end(self, turns: int, span: Span) -> tuple[float, float]:
+    def round_end(self, turns: int, span: Cooling) -> tuple[float, float]:
         """Return after how many turns and when the round ends that begins after `turns`."""
         most, end = self.span_end(span)
         if self.turns is not None:
@@ -69,7 +69,7 @@ class Limits:
         length = min(LONGEST_ROUND, max(SHORTEST_ROUND, (self.deadline - self.began) / ROUNDS))
         return most, min(end, time.perf_counter() + length)
 
-    def over(self, turns: int, span: Span = WHOLE) -> bool:
+    def over(self, turns: int, span: Cooling = WHOLE) -> bool:
         """Tell whether the search, or a span of it, ends after `turns`."""
         most, end = self.span_end(span)
         return (self.should_stop() or turns >= most

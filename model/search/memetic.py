@@ -19,12 +19,12 @@ from model.engine.alarm import Alarm
 from model.engine.library import call
 from model.problem import IntArray
 from model.search.ejection import by_ejection, can_eject
-from model.search.limits import Limits, Span
+from model.search.limits import Cooling, SearchLimits
 from model.search.route.layout import NOWHERE, ProblemData
 from model.search.route.state import Searcher
 from model.search.sharing import go_on_from_best
 from model.search.temperature import Heat
-from model.search.worker import Worker
+from model.search.worker import SearchThread
 
 MOST_STARTS, TURNS_A_START, STARTS_UNTIL = 5, 25, 0.65
 """How often the rest of a search begins from the plan by the fewest vehicles, before plans are
@@ -79,7 +79,8 @@ class _Plan:
         return float((self.follower == other.follower).mean())
 
 
-def spans_of_rest(data: ProblemData, searcher: Searcher, workers: list[Worker]) -> Iterator[Span]:
+def spans_of_rest(data: ProblemData, searcher: Searcher,
+                  workers: list[SearchThread]) -> Iterator[Cooling]:
     """Yield the parts of the rest of a search, each going on from another plan. In place."""
     first, limits = workers[0], workers[0].limits
     share, number = limits.share(first.turns), 0
@@ -93,7 +94,7 @@ def spans_of_rest(data: ProblemData, searcher: Searcher, workers: list[Worker]) 
         breeder.heat(HOT_OF_LAST)
         go_on_from_best(data, searcher)
     if not limits.over(first.turns):
-        yield Span(limits.share(first.turns), 1.0, 1.0)
+        yield Cooling(limits.share(first.turns), 1.0, 1.0)
 
 
 @dataclass(frozen=True, eq=False)
@@ -102,12 +103,12 @@ class _Breeder:
 
     data: ProblemData
     searcher: Searcher
-    workers: list[Worker]
+    workers: list[SearchThread]
     heats: list[Heat]  # of the workers, as they were
     plans: list[_Plan] = field(default_factory=list)
 
     @property
-    def limits(self) -> Limits:
+    def limits(self) -> SearchLimits:
         """Return when the search ends."""
         return self.workers[0].limits
 
@@ -116,7 +117,7 @@ class _Breeder:
         """Return the share of it that is over."""
         return self.limits.share(self.workers[0].turns)
 
-    def is_over(self, span: Span) -> bool:
+    def is_over(self, span: Cooling) -> bool:
         """Tell whether a span of it is over."""
         return self.limits.over(self.workers[0].turns, span)
 
@@ -125,9 +126,9 @@ class _Breeder:
         for worker, heat in zip(self.workers, self.heats, strict=True):
             worker.heat = replace(heat, hot=heat.hot or hot)
 
-    def start(self, end: float, elsewhere: bool) -> Iterator[Span]:
+    def start(self, end: float, elsewhere: bool) -> Iterator[Cooling]:
         """Yield a part that begins with the best plan, or elsewhere, and keep what it comes to."""
-        span = Span(self.share, end, 1.0)
+        span = Cooling(self.share, end, 1.0)
         if self.is_over(span):
             return
         if elsewhere:
@@ -141,7 +142,7 @@ class _Breeder:
             if rival == len(self.plans) or plan.cost < self.plans[rival].cost:
                 self.plans[rival:rival + 1] = [plan]
 
-    def children(self, start_share: float) -> Iterator[Span]:
+    def children(self, start_share: float) -> Iterator[Cooling]:
         """Yield parts that go on from routes of two plans, or begin anew where these bring nothing.
 
         A child takes the place of the plan most like it, or of its parent, if it is better.
@@ -149,7 +150,7 @@ class _Breeder:
         rng, vain, barren = np.random.default_rng(int(self.searcher.rng[0])), 0, 0
         for _ in range(MOST_CHILDREN):
             begin, few = self.share, len(self.plans) < 2
-            span = Span(begin, begin + TURNS_A_CHILD / self.workers[0].expected(), 1.0)
+            span = Cooling(begin, begin + TURNS_A_CHILD / self.workers[0].expected(), 1.0)
             if span.end > CHILDREN_UNTIL or self.is_over(span):
                 return
             if (few or vain >= MOST_IN_VAIN) and begin + start_share <= CHILDREN_UNTIL:
@@ -183,7 +184,7 @@ class _Breeder:
         alike = [plan.alike(other) for other in self.plans]
         return int(np.argmax(alike)) if max(alike, default=0.0) >= ALIKE else parent
 
-    def _cross(self, one: _Plan, other: _Plan, span: Span) -> bool:
+    def _cross(self, one: _Plan, other: _Plan, span: Cooling) -> bool:
         """Go on from routes of two plans, or tell that this brings no other. In place."""
         made = call("tandem_exchange_routes", self.data, self.searcher, one.nodes, other.nodes)
         if made and self.searcher.count.missing > 0:
@@ -192,7 +193,7 @@ class _Breeder:
         return (bool(made) and all(abs(plan.cost - cost) > SAME for plan in self.plans)
                 and not self.is_over(span))
 
-    def _begin_elsewhere(self, span: Span) -> None:
+    def _begin_elsewhere(self, span: Cooling) -> None:
         """Go on from another plan by as few vehicles, which no moves may lead to. In place.
 
         Shipments are moved at random by a vehicle more, and a route is given up; where not all of
@@ -207,14 +208,14 @@ class _Breeder:
             go_on_from_best(self.data, self.searcher)
         self._move_at_random(span, False)
 
-    def _move_at_random(self, span: Span, by_one_more: bool) -> None:
+    def _move_at_random(self, span: Cooling, by_one_more: bool) -> None:
         """Move shipments while there is time in a span, by a vehicle more, too. In place."""
         end = min(self.limits.span_end(span)[1], self.limits.deadline)
         with Alarm(end, self.limits.should_stop) as alarm:
             call("tandem_move_shipments", self.data._replace(deadline=alarm.setting),
                  self.searcher, MOVES * self.data.num_nodes, by_one_more)
 
-    def _insert_missing(self, span: Span, gently: bool) -> bool:
+    def _insert_missing(self, span: Cooling, gently: bool) -> bool:
         """Insert all left out at the beginning of a span, or tell that this fails. In place."""
         soon = replace(span, end=span.begin + EJECTED_SHARE * (span.end - span.begin))
         eject = by_ejection(self.data, self.searcher, self.workers, soon, gently)

@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 
 from model.engine.packing import Packed, packed
 from model.engine.pausing import EndedError
-from model.search.limits import ROUNDS, WHOLE, Limits, Span
+from model.search.limits import ROUNDS, WHOLE, Cooling, SearchLimits
 from model.search.linked.engine import anneal_linked, tie, write_back
 from model.search.linked.layout import Linked
 from model.search.route.engine import ANY, LONGEST_STRING, anneal, take_better_parts
@@ -42,16 +42,16 @@ LOOK = 5e-6
 
 
 @dataclass
-class Worker:
+class SearchThread:
     """One thread's search."""
 
     data: ProblemData
     searcher: Searcher
-    limits: Limits
+    limits: SearchLimits
     heat: Heat
     linked: Linked | None = None  # where its routes can be linked
-    span: Span = WHOLE
-    cooling: Span | None = None  # whose first temperature was set
+    span: Cooling = WHOLE
+    cooling: Cooling | None = None  # whose first temperature was set
     turns: int = 0
     pace: float = 0.0  # seconds a turn takes
     cooled: float = 0.0  # share of the cooling that is left out
@@ -62,7 +62,7 @@ class Worker:
         """Pack for the first rounds."""
         self.given = packed(self.data), self.searcher
 
-    def set_out(self, data: ProblemData, searcher: Searcher, span: Span) -> None:
+    def set_out(self, data: ProblemData, searcher: Searcher, span: Cooling) -> None:
         """Have the next round go on from a search, often that of the last one. In place."""
         if data is not self.data or searcher is not self.searcher:
             self.given = packed(data), searcher

@@ -11,7 +11,7 @@ from model.judge.retiming import TimedRoute, time_route
 from model.judge.timing import RouteDecision
 from model.problem import Problem
 from model.solution import Route, Solution
-from model.together.orders import Order, Orders, TooManyError
+from model.together.orders import AllOrders, RouteOrder, TooManyOrdersError
 
 MOST_CUSTOMERS = 8
 """For so many all groups are looked at."""
@@ -37,28 +37,28 @@ def best_by_trucks(problem: Problem, should_stop: Callable[[], bool]) -> Solutio
     left, routes = MOST_WAYS, []
     try:
         for kind in range(len(problem.vehicle_types)):
-            orders = Orders(network_of(problem, kind, customers), left, should_stop)
+            orders = AllOrders(network_of(problem, kind, customers), left, should_stop)
             routes.append(_cheapest(problem, kind, orders, should_stop))
             left -= orders.tried
         return _assembled(problem, routes, should_stop)
-    except TooManyError:
+    except TooManyOrdersError:
         return None
 
 
-def _cheapest(problem: Problem, kind: int, orders: Orders,
+def _cheapest(problem: Problem, kind: int, orders: AllOrders,
               should_stop: Callable[[], bool]) -> Routes:
     """Return the cheapest route of each group that a vehicle can serve."""
     found = {}
     for group, tried in orders.by_group().items():
         if should_stop():
-            raise TooManyError
+            raise TooManyOrdersError
         best = _cheapest_order(problem, kind, tried)
         if best is not None:
             found[group] = best
     return found
 
 
-def _cheapest_order(problem: Problem, kind: int, orders: Sequence[Order]) -> TimedRoute | None:
+def _cheapest_order(problem: Problem, kind: int, orders: Sequence[RouteOrder]) -> TimedRoute | None:
     best: TimedRoute | None = None
     for order in sorted(orders, key=lambda order: order.bound):
         if best is not None and best.judged.cost.total <= order.bound:
@@ -85,7 +85,7 @@ def _assembled(problem: Problem, routes: Sequence[Routes],
         for _ in range(min(vehicles.count, problem.num_customers)):
             sums += len(plans) * len(costs)
             if sums > MOST_SUMS or should_stop():
-                raise TooManyError
+                raise TooManyOrdersError
             plans = _with_one_more(plans, kind, costs)
     nodes = range(problem.num_depots, problem.num_nodes)
     left_out = {node: problem.cost_of_leaving_out(problem.customer_at(node)) for node in nodes}

@@ -14,7 +14,7 @@ from model.judge.timing import RouteDecision, TripDecision
 from model.problem import Problem
 from model.solution import Solution
 from model.together.joint import Joint
-from model.together.strings import Breadth, Gap, Streets, best_strings
+from model.together.strings import Breadth, Gap, TruckNetwork, best_strings
 
 WIDE, NARROW = Breadth(200, 4), Breadth(24, 4)
 """How widely is looked at first, and later, when many strings are tried."""
@@ -29,7 +29,7 @@ Vehicle = tuple[int, int]
 
 
 @dataclass(frozen=True)
-class Part:
+class StopsBetween:
     """Stops of a trip that may be others: those between two of them."""
 
     vehicle: Vehicle
@@ -93,7 +93,7 @@ class Filling:
                 return
             self._replace(parts, NARROW, self._rng)
 
-    def _is_there(self, part: Part) -> bool:
+    def _is_there(self, part: StopsBetween) -> bool:
         """Tell whether a vehicle still has such stops: trips go once nobody is served on them."""
         trips = self._decision(part.vehicle).trips
         if part.trip >= len(trips):
@@ -105,37 +105,37 @@ class Filling:
         others = self._left_out.difference(nodes)
         self._left_out -= others
         if self._joint.streets(vehicle[0]) is not None and self._left_out:
-            self._replace([Part(vehicle, 0, 0, 1)], WIDE, None)
+            self._replace([StopsBetween(vehicle, 0, 0, 1)], WIDE, None)
         self._left_out |= others
 
-    def _everywhere(self) -> list[Part]:
+    def _everywhere(self) -> list[StopsBetween]:
         """Return trips that free vehicles may make, then all there are and one more of each."""
         return [*self._free(), *[
             part for vehicle in sorted(self._routes) for part in self._trips_of(vehicle)]]
 
-    def _free(self) -> list[Part]:
+    def _free(self) -> list[StopsBetween]:
         """Return the first trip of a vehicle without a route, for each type as many as can help."""
         found = []
         for kind, vehicles in enumerate(self._problem.vehicle_types):
             if self._joint.streets(kind) is not None:
                 free = [number for number in range(vehicles.count)
                         if (kind, number) not in self._routes]
-                found += [Part((kind, number), 0, 0, 1)
+                found += [StopsBetween((kind, number), 0, 0, 1)
                           for number in free[:len(self._left_out)]]
         return found
 
-    def _trips_of(self, vehicle: Vehicle) -> list[Part]:
+    def _trips_of(self, vehicle: Vehicle) -> list[StopsBetween]:
         streets, trips = self._joint.streets(vehicle[0]), self._decision(vehicle).trips
         if streets is None or not all(node in streets.place
                                       for trip in trips for node in trip.nodes):
             return []
-        parts = [Part(vehicle, index, 0, len(trip.nodes) - 1)
+        parts = [StopsBetween(vehicle, index, 0, len(trip.nodes) - 1)
                  for index, trip in enumerate(trips) if not trip.sorties]
         if len(trips) < self._problem.vehicle_types[vehicle[0]].max_trips:
-            parts.append(Part(vehicle, len(trips), 0, 1))
+            parts.append(StopsBetween(vehicle, len(trips), 0, 1))
         return parts
 
-    def _drawn(self) -> list[Part]:
+    def _drawn(self) -> list[StopsBetween]:
         """Draw one or two parts of routes, each of another vehicle."""
         vehicles = [vehicle for vehicle in sorted(self._routes) if self._trips_of(vehicle)]
         free = self._free()[:1]
@@ -148,7 +148,7 @@ class Filling:
             parts.append(self._some_of(trips[int(self._rng.integers(len(trips)))]))
         return [*parts, *free] if self._rng.random() < 0.3 else parts
 
-    def _some_of(self, part: Part) -> Part:
+    def _some_of(self, part: StopsBetween) -> StopsBetween:
         """Draw some consecutive stops of a part."""
         size = part.behind - part.before - 1
         length = int(self._rng.integers(0, LONGEST_PART + 1))
@@ -163,7 +163,7 @@ class Filling:
             return RouteDecision(*vehicle, ())
         return read_route(self._problem, timed.route)
 
-    def _replace(self, parts: Sequence[Part], width: Breadth,
+    def _replace(self, parts: Sequence[StopsBetween], width: Breadth,
                  rng: np.random.Generator | None) -> None:
         """Put strings in place of parts, if the plan costs no more then. In place."""
         free = set(self._left_out)
@@ -190,7 +190,7 @@ class Filling:
                 self._routes[vehicle] = timed
         self._left_out = free
 
-    def _goes(self, part: Part) -> bool:
+    def _goes(self, part: StopsBetween) -> bool:
         """Tell whether a vehicle has no route without a part."""
         route = self._decision(part.vehicle)
         return (part.trip < len(route.trips) == 1
@@ -205,7 +205,7 @@ class Filling:
         return math.fsum([problem.cost_of_leaving_out(problem.customer_at(node))
                           for node in sorted(nodes)])
 
-    def _best(self, part: Part, free: set[int], width: Breadth,
+    def _best(self, part: StopsBetween, free: set[int], width: Breadth,
               rng: np.random.Generator | None) -> tuple[TimedRoute | None, tuple[int, ...]]:
         """Return a route with the best string found in place of a part, and whom that serves."""
         streets, route = self._joint.streets(part.vehicle[0]), self._decision(part.vehicle)
@@ -230,7 +230,7 @@ class Filling:
                 best, least = (timed, nodes), cost
         return best
 
-    def _changed(self, route: RouteDecision, part: Part,
+    def _changed(self, route: RouteDecision, part: StopsBetween,
                  nodes: tuple[int, ...]) -> RouteDecision | None:
         """Return a route with other customers in a part; None if it has no trips then."""
         kind, trips = self._problem.vehicle_types[route.vehicle_type], [*route.trips]
@@ -242,7 +242,7 @@ class Filling:
         trips = [trip for trip in trips if len(trip.nodes) > 2 or trip.sorties]
         return replace(route, trips=with_ends(kind, trips)) if trips else None
 
-    def _gap(self, streets: Streets, part: Part, route: RouteDecision) -> Gap:
+    def _gap(self, streets: TruckNetwork, part: StopsBetween, route: RouteDecision) -> Gap:
         """Return where a string is to be put in place of a part, as soon and late as can be."""
         net, kind = streets.net, self._problem.vehicle_types[route.vehicle_type]
         trips = [trip.nodes for trip in route.trips]
@@ -271,7 +271,7 @@ class Filling:
                    tuple(room), tuple(space))
 
     @staticmethod
-    def _leave(streets: Streets, nodes: Sequence[int], time: int, last: int) -> int:
+    def _leave(streets: TruckNetwork, nodes: Sequence[int], time: int, last: int) -> int:
         """Return when a truck leaves a stop of a trip that it begins at some time."""
         for index in range(1, last + 1):
             here, place = streets.place[nodes[index - 1]], streets.place[nodes[index]]
@@ -281,7 +281,7 @@ class Filling:
         return time
 
     @staticmethod
-    def _latest(streets: Streets, nodes: Sequence[int], latest: int, first: int) -> int:
+    def _latest(streets: TruckNetwork, nodes: Sequence[int], latest: int, first: int) -> int:
         """Return when a truck has to be at a stop of a trip that must end in time."""
         for index in range(len(nodes) - 2, first - 1, -1):
             here, place = streets.place[nodes[index]], streets.place[nodes[index + 1]]

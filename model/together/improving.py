@@ -44,7 +44,7 @@ COOLED = 0.5
 """Share of the cooling that the second search leaves out, so that groups stay."""
 
 
-class Part(NamedTuple):
+class SearchPart(NamedTuple):
     """A part of a search."""
 
     made: int = 0  # turns of all that are over
@@ -52,15 +52,15 @@ class Part(NamedTuple):
     deadline: float | None = None  # None: that of the whole
 
 
-ALL = Part()
+ALL = SearchPart()
 
 Search = Callable[
-    [Solution | None, Part, Callable[[], bool], Callable[[Progress], None]], Improved]
+    [Solution | None, SearchPart, Callable[[], bool], Callable[[Progress], None]], Improved]
 """Searches from a plan, or from none; asks whether to stop, and tells of what it finds."""
 
 
 @dataclass(frozen=True)
-class Terms:
+class SearchTerms:
     """How long to search, and whom to tell."""
 
     seed: int
@@ -80,7 +80,7 @@ class Terms:
                                       and time.perf_counter() >= self.deadline)
 
 
-def improve_together(problem: Problem, joint: Joint, begun: Solution | None, terms: Terms,
+def improve_together(problem: Problem, joint: Joint, begun: Solution | None, terms: SearchTerms,
                      search: Search) -> Improved:
     """Search from a plan, or from none, also for strings of customers; with shipments, for groups
     of few.
@@ -97,7 +97,7 @@ def improve_together(problem: Problem, joint: Joint, begun: Solution | None, ter
     return _Stages(problem, joint, terms, search).run(begun)
 
 
-def _ended(terms: Terms, deadline: float | None) -> Callable[[], bool]:
+def _ended(terms: SearchTerms, deadline: float | None) -> Callable[[], bool]:
     end = math.inf if deadline is None else deadline
     return lambda: time.perf_counter() >= end or terms.should_stop()
 
@@ -110,7 +110,7 @@ def _cheapest(problem: Problem, *plans: Solution | None) -> Solution:
 class _Watch:
     """Ends a search whose best plan leaves somebody out after a share of it."""
 
-    def __init__(self, terms: Terms) -> None:
+    def __init__(self, terms: SearchTerms) -> None:
         self._terms = terms
         self._due = terms.until(FIRST_SHARE)
         self._is_over = False
@@ -135,7 +135,7 @@ class _Watch:
 class _Stages:
     """Searches, and strings between them."""
 
-    def __init__(self, problem: Problem, joint: Joint, terms: Terms, search: Search) -> None:
+    def __init__(self, problem: Problem, joint: Joint, terms: SearchTerms, search: Search) -> None:
         self._problem = problem
         self._joint = joint
         self._terms = terms

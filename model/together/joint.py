@@ -8,7 +8,7 @@ import numpy as np
 from model.judge.metrics import allowed_overtime
 from model.judge.network import MOST_NODES, NEVER, may_stop, network_of
 from model.problem import UNLIMITED, BoolArray, IntArray, Problem
-from model.together.strings import Streets
+from model.together.strings import TruckNetwork
 
 LOOKS, FEWEST_SOURCES = 200_000, 4
 """So many legs are compared with ways by one other place, from so many places at least."""
@@ -28,13 +28,13 @@ class Joint:
 
     problem: Problem
     is_sure: bool  # vehicles of a type can't serve somebody alone, but may among others
-    _streets: dict[int, Streets | None] = field(default_factory=dict)
+    _streets: dict[int, TruckNetwork | None] = field(default_factory=dict)
 
-    def streets(self, kind: int) -> Streets | None:
+    def streets(self, kind: int) -> TruckNetwork | None:
         """Return where trucks of a type may go; None if they may stop nowhere."""
         if kind not in self._streets:
             net = network_of(self.problem, kind, _nearest(self.problem, kind))
-            self._streets[kind] = Streets(net) if len(net.nodes) > net.num_depots else None
+            self._streets[kind] = TruckNetwork(net) if len(net.nodes) > net.num_depots else None
         return self._streets[kind]
 
 

@@ -12,19 +12,19 @@ LOOKS = 256
 """Orders between two looks at the clock."""
 
 
-class Order(NamedTuple):
+class RouteOrder(NamedTuple):
     """A route in one order, and what it costs at least."""
 
     bound: float
     trips: tuple[TripDecision, ...]
 
 
-class TooManyError(Exception):
+class TooManyOrdersError(Exception):
     """There are more orders than are to be tried."""
 
 
 @dataclass
-class Orders:
+class AllOrders:
     """Tries all orders of the customers of a network.
 
     Parameters
@@ -47,14 +47,14 @@ class Orders:
     should_stop: Callable[[], bool]
     tried: int = field(default=0, init=False)
 
-    def by_group(self) -> dict[int, list[Order]]:
+    def by_group(self) -> dict[int, list[RouteOrder]]:
         """Return the orders of each group, as bits by the customers' numbers."""
-        found: dict[int, list[Order]] = {}
+        found: dict[int, list[RouteOrder]] = {}
         for group, order in self._begin():
             found.setdefault(group, []).append(order)
         return found
 
-    def _begin(self) -> Iterator[tuple[int, Order]]:
+    def _begin(self) -> Iterator[tuple[int, RouteOrder]]:
         net = self.net
         self._ride, self._far = net.ride.tolist(), net.far.tolist()
         self._nodes: list[int] = net.nodes.tolist()
@@ -77,7 +77,7 @@ class Orders:
         yield from self._onward(start, none, none)
 
     def _onward(self, path: "_Path", given: tuple[int, ...],
-                taken: tuple[int, ...]) -> Iterator[tuple[int, Order]]:
+                taken: tuple[int, ...]) -> Iterator[tuple[int, RouteOrder]]:
         """Yield the path as a route, then all that begin with it."""
         here = path.places[-1]
         if len(path.places) > 1:
@@ -101,7 +101,7 @@ class Orders:
     def _count(self) -> None:
         self.tried += 1
         if self.tried > self.most or (self.tried % LOOKS == 0 and self.should_stop()):
-            raise TooManyError
+            raise TooManyOrdersError
 
     def _is_worse(self, path: "_Path") -> bool:
         """Tell whether a path known serves the same, ends at the same place, and is no worse.
@@ -133,7 +133,7 @@ class Orders:
                              since=path.since + ride + self._stay[place],
                              group=path.group | 1 << self._nodes[place])
 
-    def _ended(self, path: "_Path") -> Iterator[tuple[int, Order]]:
+    def _ended(self, path: "_Path") -> Iterator[tuple[int, RouteOrder]]:
         """Yield the route that ends here, then those that go on with another trip."""
         if any(path.group & whole not in (0, whole) for whole in self._wholes):
             return
@@ -153,12 +153,12 @@ class Orders:
                     (depot,), (*path.trips, self._trip(path, depot)), path.time + away,
                     path.span + away, 0, path.gone + far, 0, path.group), none, none)
 
-    def _order(self, path: "_Path", end: int, span: int, gone: int) -> Order:
+    def _order(self, path: "_Path", end: int, span: int, gone: int) -> RouteOrder:
         kind = self.net.vehicle_type
         bound = (kind.fixed_cost + gone * kind.cost_per_km / MM_PER_KM
                  + path.group.bit_count() * kind.cost_per_stop
                  + span * kind.cost_per_hour / MS_PER_HOUR)
-        return Order(bound, (*path.trips, self._trip(path, end)))
+        return RouteOrder(bound, (*path.trips, self._trip(path, end)))
 
     def _trip(self, path: "_Path", end: int) -> TripDecision:
         nodes = self._nodes

@@ -12,7 +12,7 @@ from model.engine.instance import pack
 from model.engine.pausing import EndedError, pausing
 from model.problem import Problem
 from model.search.improve import SearchConfig, improve
-from model.search.regions.part import Part, part_of
+from model.search.regions.part import RegionProblem, part_of
 from model.search.regions.region import Region, Vehicle, customers_of, vehicle_of
 from model.solution import Solution
 from model.together.filling import Filling
@@ -129,7 +129,7 @@ class Pulling:
             spare += islice(free, len(chosen))
         return Region(Solution(routes, tuple(sorted(chosen))), tuple(spare))
 
-    def _mended(self, part: Part, joint: Joint, found: Solution) -> Solution:
+    def _mended(self, part: RegionProblem, joint: Joint, found: Solution) -> Solution:
         """Return the routes that keep all limits, and what can be kept of the others."""
         problem = part.problem
         judged = [(route, judge_route(problem, route, "")) for route in found.routes]

@@ -60,7 +60,7 @@ class _Way(NamedTuple):
     before: "_Way | None"
 
 
-class Streets:
+class TruckNetwork:
     """A network as lists, with the legs that a truck can drive in time."""
 
     def __init__(self, net: Network) -> None:
@@ -107,7 +107,7 @@ def _listed(values: IntArray) -> list[int]:
     return found
 
 
-def best_strings(streets: Streets, gap: Gap, allowed: set[int], breadth: Breadth,
+def best_strings(streets: TruckNetwork, gap: Gap, allowed: set[int], breadth: Breadth,
                  should_stop: Callable[[], bool],
                  noise: FloatArray | None = None) -> list[String]:
     """Return some strings of allowed places for a gap, those whom leaving out costs most first.
@@ -132,7 +132,7 @@ def best_strings(streets: Streets, gap: Gap, allowed: set[int], breadth: Breadth
             for *_, way in sorted(found, key=lambda each: (-each[0], -each[1], -each[2]))]
 
 
-def _longer(streets: Streets, gap: Gap, ways: Sequence[_Way], allowed: set[int], width: int,
+def _longer(streets: TruckNetwork, gap: Gap, ways: Sequence[_Way], allowed: set[int], width: int,
             longer: Sequence[float]) -> list[_Way]:
     """Return the best ways with one more customer."""
     by_place: dict[int, list[tuple[float, int, _Way]]] = {}

@@ -17,7 +17,7 @@ from model.engine.pausing import Pause, go_on, matrix_blocks
 from model.problem import FloatArray, IntArray
 from model.travel.matrices import planar_distances
 from model.travel.obstacles import Obstacles, obstacles_of
-from model.travel.ways import Legs, Ways, find_ways
+from model.travel.ways import FlightLegs, Ways, find_ways
 from model.travel.wind import Breeze, Wind
 from model.travel.zones import KEPT, read_back, written
 
@@ -89,7 +89,7 @@ def flight_legs(
     airspace: Airspace,
     airspeed_kmh: float,
     straight_m: FloatArray | None = None,
-) -> Legs:
+) -> FlightLegs:
     """Fly between all points at one speed; parameters are those of `Flights`."""
     if straight_m is None:
         straight_m = planar_distances(points_m)
@@ -123,7 +123,7 @@ class Flights:
         self._straight_m = straight_m
         self._pause = pause
 
-    def legs(self, airspeed_kmh: float, winds: Sequence[Breeze] = ()) -> Legs:
+    def legs(self, airspeed_kmh: float, winds: Sequence[Breeze] = ()) -> FlightLegs:
         """Return the flights of drones of one speed through the air, for reading only.
 
         Of several `winds`, each flight is that in which it takes longest; by default the
@@ -140,7 +140,7 @@ class Flights:
         first, *others = felt or [self.airspace.wind(airspeed_kmh)]
         legs = self._in(first)
         if others:
-            legs = Legs(*(each.copy() for each in legs))
+            legs = FlightLegs(*(each.copy() for each in legs))
         for wind in others:
             other = self._in(wind)
             longer = other.duration > legs.duration
@@ -148,9 +148,9 @@ class Flights:
                 np.copyto(worst, each, where=longer)
         return legs
 
-    def _in(self, wind: Wind) -> Legs:
+    def _in(self, wind: Wind) -> FlightLegs:
         if wind.is_calm:
-            return Legs(self._shortest_m, self._shortest_m / wind.airspeed)
+            return FlightLegs(self._shortest_m, self._shortest_m / wind.airspeed)
         return self._quickest(wind)
 
     @cached_property
@@ -165,11 +165,11 @@ class Flights:
             return self._straight_m
         # At a metre a second, durations are distances.
         shortest = self._straight_m.copy()
-        self.ways.replace_blocked(Legs(shortest, shortest), Wind(1.0, 0.0, 0.0), self._pause)
+        self.ways.replace_blocked(FlightLegs(shortest, shortest), Wind(1.0, 0.0, 0.0), self._pause)
         return shortest
 
-    def _quickest(self, wind: Wind) -> Legs:
-        legs = Legs(self._straight_m.copy(), np.empty_like(self._straight_m))
+    def _quickest(self, wind: Wind) -> FlightLegs:
+        legs = FlightLegs(self._straight_m.copy(), np.empty_like(self._straight_m))
         for rows in matrix_blocks(len(self._points), self._pause):
             x = self._points[:, 0] - self._points[rows, 0, None]
             y = self._points[:, 1] - self._points[rows, 1, None]
@@ -197,9 +197,9 @@ class OpenFlights:
         self._by_areas = by_areas
         self._areas = areas
 
-    def legs(self, airspeed_kmh: float, winds: Sequence[Breeze] = ()) -> Legs:
+    def legs(self, airspeed_kmh: float, winds: Sequence[Breeze] = ()) -> FlightLegs:
         """Return the flights of drones of one speed as `Flights.legs` does."""
-        legs = Legs(*(each.copy() for each in self._by_areas[0].legs(airspeed_kmh, winds)))
+        legs = FlightLegs(*(each.copy() for each in self._by_areas[0].legs(airspeed_kmh, winds)))
         entered = self._areas[:, None] | self._areas
         for areas, flights in self._by_areas.items():
             if areas:

@@ -31,7 +31,7 @@ FLIGHTS_AT_ONCE = 6_000_000
 """Flights from or to corners put together between two pauses."""
 
 
-class Legs(NamedTuple):
+class FlightLegs(NamedTuple):
     """Flights from each origin (row) to each target (column), infinite where there is none."""
 
     distance: FloatArray  # (origin, target) metres
@@ -96,7 +96,7 @@ class Ways:
     turns: Turns
     order: IntArray  # (node,) all nodes, the outermost first, so that searches become shorter
 
-    def replace_blocked(self, legs: Legs, wind: Wind, pause: Pause) -> None:
+    def replace_blocked(self, legs: FlightLegs, wind: Wind, pause: Pause) -> None:
         """Fly around where there is no straight flight. In place.
 
         A straight flight is the quickest in steady wind too, so quickest ways bend only at corners.

@@ -10,7 +10,7 @@ from model.problem import IntArray, Problem
 from model.simulation.extract import extract
 from model.simulation.actions import NUM_KINDS, OPEN
 from training.completion import (
-    Setting, can_complete, complete, cost_of, is_cut, open_type, to_actions, to_routes,
+    CompletionSetting, can_complete, complete, cost_of, is_cut, open_type, to_actions, to_routes,
     what_is_left,
 )
 from training.export import WEIGHTS
@@ -41,7 +41,7 @@ def plan_of(actor: Actor, problem: Problem) -> IntArray:
 def test_completion_is_a_legal_plan_that_begins_as_was_decided(variant: str, actor: Actor) -> None:
     for seed in range(3):
         problem = Origin(variant, 9, seed).problem()
-        setting, actions = Setting.of(problem), plan_of(actor, problem)
+        setting, actions = CompletionSetting.of(problem), plan_of(actor, problem)
         whole = cost_of(setting, actions)
         for cut in range(0, len(actions), 2):
             rest = what_is_left(setting, actions[:cut]) if is_cut(actions, cut) else None
@@ -59,7 +59,7 @@ def test_completion_is_a_legal_plan_that_begins_as_was_decided(variant: str, act
 
 def test_completion_finds_the_way_back_from_a_shuffled_rest(actor: Actor) -> None:
     problem = Origin("uniform", 12, 5).problem()
-    setting, actions = Setting.of(problem), plan_of(actor, problem)
+    setting, actions = CompletionSetting.of(problem), plan_of(actor, problem)
     rest = what_is_left(setting, actions[:4])
     assert rest is not None
     begun = open_type(actions[:4])

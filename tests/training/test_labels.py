@@ -10,7 +10,7 @@ import torch
 from model.policy.attention import AttentionConfig, AttentionPolicy
 from model.simulation.actions import LAUNCH, NUM_KINDS, OPEN, RETURN
 from training.completion import (
-    Setting, complete, cost_of, open_type, to_actions, to_routes, what_is_left,
+    CompletionSetting, complete, cost_of, open_type, to_actions, to_routes, what_is_left,
 )
 from training.deviations import go_on
 from training.examples import make_lesson, places
@@ -40,7 +40,7 @@ def labelled(actor: Actor) -> Labelled:
     return label(actor, ORIGIN)[0]
 
 
-def completed(setting: Setting, actions: np.ndarray) -> float:
+def completed(setting: CompletionSetting, actions: np.ndarray) -> float:
     """Return what a beginning is worth by a longer search from nothing."""
     rest = what_is_left(setting, actions)
     if rest is None:
@@ -53,7 +53,7 @@ def completed(setting: Setting, actions: np.ndarray) -> float:
 
 
 def test_better_choice_is_better(labelled: Labelled) -> None:
-    setting = Setting.of(ORIGIN.problem())
+    setting = CompletionSetting.of(ORIGIN.problem())
     total = cost_of(setting, labelled.actions)
     assert len(labelled.pairs) > 2
     for pair in labelled.pairs:
@@ -95,7 +95,8 @@ def test_lesson_sees_what_the_plan_saw(labelled: Labelled) -> None:
 
 
 def test_choices_cost_what_they_come_to(actor: Actor) -> None:
-    setting, judged, plan = Setting.of(ORIGIN.problem()), 0, label_by_trials(actor, ORIGIN)
+    setting, judged = CompletionSetting.of(ORIGIN.problem()), 0
+    plan = label_by_trials(actor, ORIGIN)
     for trial in plan.trials:
         before = plan.actions[:trial.step]
         for code, cost in zip(trial.codes.tolist(), trial.costs.tolist(), strict=True):
@@ -166,7 +167,7 @@ def test_plans_are_read_as_they_were_written(actor: Actor, labelled: Labelled,
 
 
 def test_worth_of_beginnings_ends_at_what_the_plan_costs(labelled: Labelled) -> None:
-    setting = Setting.of(ORIGIN.problem())
+    setting = CompletionSetting.of(ORIGIN.problem())
     assert labelled.cuts[0] == 0
     assert labelled.cuts[-1] == len(labelled.actions)
     assert labelled.worth[-1] == pytest.approx(cost_of(setting, labelled.actions))

@@ -16,7 +16,7 @@ from tests.conftest import eventually, free_port
 from training.config import TrainConfig
 from training.heuristics import nearest_neighbour
 from training.policies import POLICIES, widened
-from training.train import Leg, processes, train, validation_batches
+from training.train import TrainingLeg, processes, train, validation_batches
 
 pytestmark = pytest.mark.slow
 
@@ -33,7 +33,7 @@ TINY = TrainConfig(sizes=((0, 6), (2, 8)), num_problems=4, num_rollouts=3, warm_
 def test_training_runs_and_logs(policy: str, baseline: str, tmp_path: Path) -> None:
     config = TrainConfig(policy=policy, baseline=baseline, sizes=((0, 6),),  # type: ignore[arg-type]
                          num_problems=4, num_rollouts=3)
-    ratios = train(Leg(tmp_path, config, max_steps=2, validation_size=8))
+    ratios = train(TrainingLeg(tmp_path, config, max_steps=2, validation_size=8))
     assert set(ratios) > {"all", "cvrp", "vrptw", "mixed"}
     with (tmp_path / "log.csv").open() as file:
         rows = list(csv.DictReader(file))
@@ -44,9 +44,9 @@ def test_training_runs_and_logs(policy: str, baseline: str, tmp_path: Path) -> N
 
 def test_resumed_run_equals_an_uninterrupted_one(tmp_path: Path) -> None:
     whole, parted = tmp_path / "whole", tmp_path / "parted"
-    train(Leg(whole, TINY, max_steps=4, validation_size=8))
-    train(Leg(parted, TINY, max_steps=2, validation_size=8))
-    train(Leg(parted, TINY, max_steps=4, validation_size=8))
+    train(TrainingLeg(whole, TINY, max_steps=4, validation_size=8))
+    train(TrainingLeg(parted, TINY, max_steps=2, validation_size=8))
+    train(TrainingLeg(parted, TINY, max_steps=4, validation_size=8))
     first, second = (torch.load(folder / "checkpoint.pt", weights_only=False)
                      for folder in (whole, parted))
     assert first["step"] == second["step"] == 4
@@ -76,8 +76,8 @@ def test_weights_of_new_features_are_learnt_alone(tmp_path: Path) -> None:
                      only_new=True)
     ratios = {}
     for steps in (1, 2):
-        ratios = train(Leg(tmp_path, config, max_steps=steps, validation_size=2,
-                           begin_with=tmp_path / "fewer"))
+        ratios = train(TrainingLeg(tmp_path, config, max_steps=steps, validation_size=2,
+                                   begin_with=tmp_path / "fewer"))
     assert set(ratios) > {"all", "related"}
     learnt = torch.load(tmp_path / "checkpoint.pt", weights_only=False)["policy"]
     assert learnt["node_embedding.weight"][:, -2:].all(dim=0).any()
@@ -88,7 +88,7 @@ def test_weights_of_new_features_are_learnt_alone(tmp_path: Path) -> None:
 
 def test_training_begins_with_an_exported_policy(tmp_path: Path) -> None:
     config = replace(TINY, policy="attention", baseline="shared")
-    train(Leg(tmp_path, config, max_steps=0, validation_size=8, begin_with=EXPORTED))
+    train(TrainingLeg(tmp_path, config, max_steps=0, validation_size=8, begin_with=EXPORTED))
     content = torch.load(tmp_path / "checkpoint.pt", weights_only=False)
     weights = torch.load(EXPORTED / "weights.pt", weights_only=True)
     assert weights.keys() == content["policy"].keys()
@@ -98,7 +98,7 @@ def test_training_begins_with_an_exported_policy(tmp_path: Path) -> None:
 
 def test_another_policys_weights_are_refused(tmp_path: Path) -> None:
     with pytest.raises(ValueError, match="begin_with"):
-        train(Leg(tmp_path, TINY, max_steps=0, validation_size=8, begin_with=EXPORTED))
+        train(TrainingLeg(tmp_path, TINY, max_steps=0, validation_size=8, begin_with=EXPORTED))
 
 
 def test_several_processes_train_one_policy(tmp_path: Path) -> None:

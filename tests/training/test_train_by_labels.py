@@ -10,7 +10,7 @@ import torch
 from training.examples import make_lesson
 from training.export import WEIGHTS
 from training.train_by_labels import (
-    LabelConfig, Leg, Run, compare, learn, logits_of, right_order, train,
+    LabelConfig, LabelsLeg, LabelsRun, compare, learn, logits_of, right_order, train,
 )
 from training.labels import (
     NEWEST, Actor, Labelled, Origin, label, label_by_trials, read, read_policy, write,
@@ -95,8 +95,8 @@ def test_old_policy_is_at_no_distance_from_itself(labels: Path) -> None:
 def test_resumed_run_equals_an_uninterrupted_one(labels: Path, tmp_path: Path) -> None:
     for folder, stops in (("whole", (4,)), ("parted", (2, 4))):
         for steps in stops:
-            train(Leg(tmp_path / folder, labels, CONFIG, EXPORTED, max_steps=steps,
-                      validate_every=2))
+            train(LabelsLeg(tmp_path / folder, labels, CONFIG, EXPORTED, max_steps=steps,
+                            validate_every=2))
     first, second = (torch.load(tmp_path / folder / "checkpoint.pt", weights_only=False)
                      for folder in ("whole", "parted"))
     assert first["step"] == second["step"] == 4
@@ -109,15 +109,15 @@ def test_resumed_run_equals_an_uninterrupted_one(labels: Path, tmp_path: Path) -
 
 
 def test_mean_of_weights_follows_the_policy(labels: Path, tmp_path: Path) -> None:
-    run: Run = train(Leg(tmp_path, labels, CONFIG, EXPORTED, max_steps=3))
+    run: LabelsRun = train(LabelsLeg(tmp_path, labels, CONFIG, EXPORTED, max_steps=3))
     old, mean, last = (network.state_dict()["here.weight"]
                        for network in (run.old, run.average, run.policy))
     assert 0 < (mean - old).norm() < (last - old).norm()
 
 
 def test_pointer_learns_from_the_same_labels(labels: Path, tmp_path: Path) -> None:
-    run = train(Leg(tmp_path, labels, replace(CONFIG, policy="pointer"),
-                    EXPORTED.parent / "pointer", max_steps=4))
+    run = train(LabelsLeg(tmp_path, labels, replace(CONFIG, policy="pointer"),
+                          EXPORTED.parent / "pointer", max_steps=4))
     assert run.policy.hidden_size > 0
     assert not (labels / NEWEST).exists()
     for mine, before in zip(run.policy.parameters(), run.old.parameters(), strict=True):
@@ -127,4 +127,4 @@ def test_pointer_learns_from_the_same_labels(labels: Path, tmp_path: Path) -> No
 
 def test_no_labels_is_an_error(tmp_path: Path) -> None:
     with pytest.raises(ValueError, match="labels"):
-        train(Leg(tmp_path, tmp_path, CONFIG, EXPORTED, max_steps=1))
+        train(LabelsLeg(tmp_path, tmp_path, CONFIG, EXPORTED, max_steps=1))

@@ -7,7 +7,7 @@ import pytest
 import torch
 
 from model.policy.attention import AttentionPolicy
-from training.completion import Setting, cost_of
+from training.completion import CompletionSetting, cost_of
 from training.examples import problem_of
 from training.export import WEIGHTS
 from training.labels import Actor, Labelled, Origin, label, read_policy, write
@@ -38,7 +38,7 @@ def test_states_are_worth_what_was_found(policy: AttentionPolicy, plans: list[La
         batch = make_batch([problem_of(plan.origin)], [""])
         unit = float(batch.scale.cost[0]) * plan.origin.size
         known = plan.worth[:-1] / unit
-        total = cost_of(Setting.of(problem_of(plan.origin)), plan.actions) / unit
+        total = cost_of(CompletionSetting.of(problem_of(plan.origin)), plan.actions) / unit
         for place in torch.nonzero(found.is_state[index])[:, 0].tolist():
             worth, spent = float(found.worth[index, place]), float(found.spent[index, place])
             assert min(abs(known - worth)) < 1e-5

@@ -8,7 +8,7 @@ from statistics import median
 from app.formats.sheets.cells import CellError, Doubt, MisreadError
 from app.formats.sheets.customers import address_of
 from app.formats.sheets.fleet import Incomplete
-from app.formats.sheets.geography import Ground, Pair, depot_pair
+from app.formats.sheets.geography import Pair, TableGeography, depot_pair
 from app.formats.sheets.rows import Row
 from app.formats.sheets.schemas import FoundReply, ImportSettings, LookUpReply
 from app.maps.addresses.addresses import NO_ADDRESSES, Addresses, LookedUp
@@ -56,7 +56,7 @@ NO_FINDER = Finder()
 
 
 @dataclass
-class Located:
+class LocatedRows:
     """Where rows with addresses are, and what is to be said of that."""
 
     places: dict[int, Pair] = field(default_factory=dict)  # by row
@@ -90,8 +90,8 @@ def with_depot(settings: ImportSettings, finder: Finder) -> tuple[ImportSettings
                    + (f": {doubt}." if doubt else "."))])
 
 
-def locate(rows: Sequence[Row], ground: Ground, finder: Finder, *,
-           keeps: bool = False) -> Located:
+def locate(rows: Sequence[Row], ground: TableGeography, finder: Finder, *,
+           keeps: bool = False) -> LocatedRows:
     """Look up the rows that state no coordinates. In place.
 
     Parameters
@@ -102,9 +102,9 @@ def locate(rows: Sequence[Row], ground: Ground, finder: Finder, *,
     lacking = {row.number: row for row in rows
                if ground.pair(row) is None and not row.errors and address_of(row)}
     if not ground.is_geographic or not lacking:
-        return Located()
+        return LocatedRows()
     if not finder.finds:
-        return _by_hand(lacking) if keeps else Located()
+        return _by_hand(lacking) if keeps else LocatedRows()
     asked = {number: address_of(row) for number, row in lacking.items()}
     looked_up = finder.look_up(list(dict.fromkeys(asked.values())))
     known = {number: looked_up.candidates[text] for number, text in asked.items()
@@ -112,7 +112,7 @@ def locate(rows: Sequence[Row], ground: Ground, finder: Finder, *,
     stated = [pair for row in rows if (pair := ground.pair(row)) is not None]
     middle = _middle(stated + [(found[0].lon, found[0].lat) for found in known.values()
                                if len(found) == 1])
-    located = Located(pending=frozenset(asked.keys() - known.keys()))
+    located = LocatedRows(pending=frozenset(asked.keys() - known.keys()))
     chosen: dict[int, Candidates] = {}
     for number, found in known.items():
         row, best = lacking[number], _nearest(found, middle)
@@ -138,10 +138,10 @@ def locate(rows: Sequence[Row], ground: Ground, finder: Finder, *,
     return located
 
 
-def _by_hand(lacking: Mapping[int, Row]) -> Located:
+def _by_hand(lacking: Mapping[int, Row]) -> LocatedRows:
     """Return what becomes of rows whose addresses nobody looks up, where they are kept."""
     customers = {number: row for number, row in lacking.items() if not row.is_depot}
-    located = Located(unplaced={number: address_of(row) for number, row in customers.items()})
+    located = LocatedRows(unplaced={number: address_of(row) for number, row in customers.items()})
     if customers:
         cell = next(iter(customers.values())).cell(*CELLS)
         located.doubts.append(Doubt(
@@ -182,7 +182,7 @@ def _nearest(found: Candidates, middle: Pair | None) -> Candidates | None:
     return (by_distance[0],) if first * NEARER < second else None
 
 
-def _leave(located: Located, row: Row, address: str, found: Candidates, keeps: bool) -> None:
+def _leave(located: LocatedRows, row: Row, address: str, found: Candidates, keeps: bool) -> None:
     """Keep the address of a row that isn't found, or refuse the row. In place."""
     code, message = _not_found(address, found)
     if keeps:

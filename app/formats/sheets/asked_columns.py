@@ -8,7 +8,7 @@ from app.formats.sheets.columns import Column
 from app.formats.sheets.headings import guesses, simple
 from app.formats.sheets.layout import Table
 from app.formats.sheets.meanings import MEANINGS
-from app.formats.sheets.questions import Asking, Question
+from app.formats.sheets.questions import Question, Questionnaire
 from app.formats.sheets.readers import read
 from app.formats.sheets.schemas import ColumnMapping, Mapping
 
@@ -39,7 +39,7 @@ def column_id(table: Table, index: int) -> str:
     return f"column:{letters(index) if repeats or not heading else heading}"[:500]
 
 
-def stated_columns(table: Table, mapping: Mapping, asking: Asking) -> list[ColumnMapping]:
+def stated_columns(table: Table, mapping: Mapping, asking: Questionnaire) -> list[ColumnMapping]:
     """Return the columns whose meaning is stated, by the mapping or by an answer."""
     answered = [ColumnMapping(heading=heading[:2000], column=letters(index), meaning=answer)
                 for index, heading in enumerate(table.headings)
@@ -51,7 +51,8 @@ def stated_columns(table: Table, mapping: Mapping, asking: Asking) -> list[Colum
                          and simple(entry.heading) not in headings)]
 
 
-def ask_columns(table: Table, columns: Sequence[Column], style: Style, asking: Asking) -> None:
+def ask_columns(table: Table, columns: Sequence[Column], style: Style,
+                asking: Questionnaire) -> None:
     """Ask about the columns that hold anything and mean nothing. In place."""
     for column in columns:
         cells = table.column(column.index)

@@ -7,9 +7,9 @@ from app.formats.sheets.cells import letters
 from app.formats.sheets.clocks import Style
 from app.formats.sheets.columns import columns_of
 from app.formats.sheets.headings import simple
-from app.formats.sheets.layout import Origin, Table, table_of
+from app.formats.sheets.layout import RowOrigin, Table, table_of
 from app.formats.sheets.plan_rules import lists_rules
-from app.formats.sheets.questions import Asking, Question
+from app.formats.sheets.questions import Question, Questionnaire
 from app.formats.sheets.schemas import Mapping
 from app.formats.sheets.table import MAX_COLUMNS, NotASheetError, Sheet, SheetFile
 from app.formats.sheets.text import MAX_CELLS
@@ -32,7 +32,7 @@ class Chosen(NamedTuple):
     rules: Sheet | None
 
 
-def chosen(file: SheetFile, mapping: Mapping, asking: Asking,
+def chosen(file: SheetFile, mapping: Mapping, asking: Questionnaire,
            states_fleet: bool) -> Chosen:
     """Return what each sheet that is read is read as. In place.
 
@@ -140,4 +140,4 @@ def with_rows_of(table: Table, other: Table) -> Table:
     return Table(sheet, table.header_rows, tuple(headings),
                  (*table.rows, *(row + first for row in other.rows)),
                  table.num_empty + other.num_empty,
-                 (*table.origins, Origin(first, other.sheet.name, names)))
+                 (*table.origins, RowOrigin(first, other.sheet.name, names)))

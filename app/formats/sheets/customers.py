@@ -11,7 +11,7 @@ from app.formats.sheets.cells import Doubt, clock_text, next_day
 from app.formats.sheets.clocks import DAY, past_midnight
 from app.formats.sheets.columns import Column
 from app.formats.sheets.damage import is_damaged
-from app.formats.sheets.geography import Ground, Pair, on_globe
+from app.formats.sheets.geography import Pair, TableGeography, on_globe
 from app.formats.sheets.meanings import OF_SIDES, meaning_at
 from app.formats.sheets.rows import Row
 from app.schemas.fields import MAX_INFO_ENTRIES, MAX_INFO_LENGTH
@@ -63,7 +63,7 @@ class Entry:
         return [*zip(self.heads, (*pickups, self.customer["delivery"]), strict=True)]
 
 
-def entries_of(rows: Sequence[Row], columns: Sequence[Column], ground: Ground,
+def entries_of(rows: Sequence[Row], columns: Sequence[Column], ground: TableGeography,
                service_minutes: float | None) -> list[Entry]:
     """Return a customer for each row that states its place; other rows are refused. In place."""
     amounts = [column for column in columns if column.meaning == "demand"]
@@ -120,7 +120,7 @@ def placed(stops: Iterable[Entry]) -> list[tuple[Row, Pair]]:
             if isinstance(location := place["location"], list)]
 
 
-def _location(row: Row, ground: Ground) -> list[float] | Data | None:
+def _location(row: Row, ground: TableGeography) -> list[float] | Data | None:
     """Return a location of a request, perhaps an address; None: refused or pending. In place."""
     if row.number in ground.unplaced:
         return {"address": ground.unplaced[row.number]}
@@ -128,7 +128,7 @@ def _location(row: Row, ground: Ground) -> list[float] | Data | None:
     return None if place is None else list(place)
 
 
-def _place(row: Row, ground: Ground) -> Pair | None:
+def _place(row: Row, ground: TableGeography) -> Pair | None:
     """Return where a row's customer is; refuse the row if it doesn't say. In place."""
     place = ground.pair(row)
     cells = (*ground.columns, "address", "street", "town", "name")

@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from app.formats.sheets.cells import CellError, Doubt
 from app.formats.sheets.headings import simple
 from app.formats.sheets.meanings import OF_PICKUPS, OF_SIDES, meaning_at
-from app.formats.sheets.questions import Asking, Question
+from app.formats.sheets.questions import Question, Questionnaire
 from app.formats.sheets.readers import DELIVERY, DEPOT, PICKUP
 from app.formats.sheets.rows import PLACED, Row
 from app.formats.sheets.sides import ALTERNATIVE
@@ -17,7 +17,7 @@ Whole = Mapping[str, Sequence[Row]]
 
 
 def divided(rows: Sequence[Row], num_rows: int,
-            asking: Asking) -> tuple[list[Row], list[Doubt], list[CellError]]:
+            asking: Questionnaire) -> tuple[list[Row], list[Doubt], list[CellError]]:
     """Return rows of one place each, with what was guessed and what is wrong. In place.
 
     Parameters
@@ -72,7 +72,7 @@ def _called(rows: Sequence[Row], meaning: str) -> dict[str, list[Row]]:
     return found
 
 
-def _are_shipments(orders: Whole, asking: Asking) -> bool:
+def _are_shipments(orders: Whole, asking: Questionnaire) -> bool:
     """Return whether rows of one order are the ends of a shipment. In place."""
     name, alike = next(iter(orders.items()))
     cell = alike[0].cell("order")

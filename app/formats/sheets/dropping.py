@@ -8,7 +8,7 @@ from app.formats.sheets.cells import Raw, shown
 from app.formats.sheets.columns import Column
 from app.formats.sheets.headings import simple
 from app.formats.sheets.layout import Table
-from app.formats.sheets.questions import KEEP_OR_NOT, LEAVE_OUT, PLAN, Asking, Question
+from app.formats.sheets.questions import KEEP_OR_NOT, LEAVE_OUT, PLAN, Question, Questionnaire
 from app.formats.sheets.readers import NO, ORDER_KINDS, YES
 from app.formats.sheets.rows import Row
 from app.formats.sheets.states import CANCELLED, DONE, OPEN
@@ -21,7 +21,7 @@ IN_TEXTS = ("status", "notes", "name", "order", "info", "priority", "ignored", "
 MOST_WORDINGS = 12
 
 
-def without_hidden(table: Table, asking: Asking) -> Table:
+def without_hidden(table: Table, asking: Questionnaire) -> Table:
     """Return a table without the rows that its reader doesn't see. In place."""
     unseen = [row for row in table.rows if row in table.sheet.hidden_rows]
     if not unseen:
@@ -42,7 +42,7 @@ def without_hidden(table: Table, asking: Asking) -> Table:
 
 
 def without_sums(table: Table, rows: Sequence[Row], sums: Sequence[Row],
-                 asking: Asking) -> list[Row]:
+                 asking: Questionnaire) -> list[Row]:
     """Return the rows without those that sum up others. In place."""
     if not sums:
         return list(rows)
@@ -59,7 +59,7 @@ def without_sums(table: Table, rows: Sequence[Row], sums: Sequence[Row],
 
 
 def without_cancelled(table: Table, rows: Sequence[Row], columns: Sequence[Column],
-                      asking: Asking) -> list[Row]:
+                      asking: Questionnaire) -> list[Row]:
     """Return the rows without orders that are cancelled or done. In place."""
     left_out: set[int] = set()
     for column in columns:
@@ -114,7 +114,7 @@ def _status_question(table: Table, column: Column, wording: str,
 
 
 def with_kinds(table: Table, rows: Sequence[Row], columns: Sequence[Column],
-               asking: Asking) -> list[Row]:
+               asking: Questionnaire) -> list[Row]:
     """Return rows that are told to be deliveries or pickups; others are asked about. In place."""
     column = next((column for column in columns if column.meaning == "kind"), None)
     if column is None:
@@ -139,7 +139,7 @@ def with_kinds(table: Table, rows: Sequence[Row], columns: Sequence[Column],
     return [row for row in rows if row.number not in left_out]
 
 
-def without_doubles(table: Table, rows: Sequence[Row], asking: Asking) -> list[Row]:
+def without_doubles(table: Table, rows: Sequence[Row], asking: Questionnaire) -> list[Row]:
     """Return the rows, each once if those alike, order number and all, are one. In place."""
     first: dict[tuple[Raw, ...], int] = {}
     doubles = []

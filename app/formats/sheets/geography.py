@@ -24,7 +24,7 @@ Pair = tuple[float, float]
 
 
 @dataclass(frozen=True)
-class Ground:
+class TableGeography:
     """How a table states places."""
 
     columns: tuple[str, ...]  # meanings: ("latitude", "longitude"), ("point",), ("x", "y") or ()
@@ -47,7 +47,7 @@ class Ground:
         return (second, first) if turned else (first, second)
 
 
-def ground_of(rows: Sequence[Row], is_european: bool, depot: Pair | None) -> Ground:
+def ground_of(rows: Sequence[Row], is_european: bool, depot: Pair | None) -> TableGeography:
     """Return how rows state places.
 
     Parameters
@@ -63,16 +63,16 @@ def ground_of(rows: Sequence[Row], is_european: bool, depot: Pair | None) -> Gro
                     if set(names) in PLACES and set(names) <= meanings), ())
     pairs = [pair for row in rows if (pair := _stated(row, columns)) is not None]
     if not columns or not pairs:
-        return Ground(columns)
+        return TableGeography(columns)
     if columns == ("x", "y"):
         if not _look_like_degrees(pairs):
-            return Ground(columns, is_geographic=False)
+            return TableGeography(columns, is_geographic=False)
         told = Doubt("DEGREES_GUESSED", "x and y look like degrees: x is taken for the longitude, "
                      "y for the latitude.")
         swapped, more = _swapped([(second, first) for first, second in pairs], is_european, depot)
-        return Ground(columns, True, swapped, (told, *more))
+        return TableGeography(columns, True, swapped, (told, *more))
     swapped, doubts = _swapped(pairs, is_european, depot)
-    return Ground(columns, True, swapped, doubts)
+    return TableGeography(columns, True, swapped, doubts)
 
 
 def depot_pair(text: str) -> Pair:

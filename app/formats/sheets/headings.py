@@ -40,7 +40,7 @@ _CAMEL = re.compile(r"(?<=[a-z])(?=[A-Z])")
 
 
 @dataclass(frozen=True)
-class Guess:
+class HeadingGuess:
     """What a heading may mean."""
 
     meaning: str
@@ -75,7 +75,7 @@ def is_unit(text: str) -> bool:
 
 
 @lru_cache(4096)
-def guesses(heading: str) -> tuple[Guess, ...]:
+def guesses(heading: str) -> tuple[HeadingGuess, ...]:
     """Return what a heading may mean, the likeliest first."""
     stated = _UNIT.search(heading)
     unit = unit_named(stated["unit"]) if stated else None
@@ -84,7 +84,7 @@ def guesses(heading: str) -> tuple[Guess, ...]:
     last = UNITS.get(words[-1]) if unit is None and len(words) > 1 else None
     if last:
         for meaning, guess in _scored(words[:-1], last):
-            better = Guess(meaning, guess.score * 0.97, last, guess.language)
+            better = HeadingGuess(meaning, guess.score * 0.97, last, guess.language)
             if _takes(meaning, last) and better.score > found.get(meaning, better).score - 1e-9:
                 found[meaning] = better
     _read_as_time(found, unit or last)
@@ -92,14 +92,14 @@ def guesses(heading: str) -> tuple[Guess, ...]:
         found["demand"] = replace(found["demand"], unit=stated["unit"])
     # A heading may say no more than the unit of an amount.
     if not found and (unit or UNITS.get(words[0] if len(words) == 1 else "")) in STOP_UNITS:
-        found["service"] = Guess("service", 0.9, unit or UNITS[words[0]])
+        found["service"] = HeadingGuess("service", 0.9, unit or UNITS[words[0]])
     alone = unit or UNITS.get(words[0]) if len(words) == 1 else unit if not words else None
     if alone and _takes("demand", alone):
-        found.setdefault("demand", Guess("demand", 0.9, alone))
+        found.setdefault("demand", HeadingGuess("demand", 0.9, alone))
     return tuple(sorted(found.values(), key=lambda guess: -guess.score))
 
 
-def _read_as_time(found: dict[str, Guess], unit: str | None) -> None:
+def _read_as_time(found: dict[str, HeadingGuess], unit: str | None) -> None:
     """Have stops and goods in a unit of time mean how long a stop takes. In place."""
     if unit not in DURATION_UNITS or not OF_STOPS & found.keys():
         return
@@ -107,7 +107,7 @@ def _read_as_time(found: dict[str, Guess], unit: str | None) -> None:
                    key=lambda guess: guess.score).language
     for meaning in OF_STOPS & found.keys():
         del found[meaning]
-    found.setdefault("service", Guess("service", AT_STOP, unit, language))
+    found.setdefault("service", HeadingGuess("service", AT_STOP, unit, language))
 
 
 def is_known(heading: str, least: float = HEADING) -> bool:
@@ -123,7 +123,7 @@ def _takes(meaning: str, unit: str) -> bool:
     return unit in units if units else is_amount
 
 
-def _scored(words: list[str], unit: str | None) -> Iterator[tuple[str, Guess]]:
+def _scored(words: list[str], unit: str | None) -> Iterator[tuple[str, HeadingGuess]]:
     """Yield the best guess for each meaning that fits any of the words."""
     best: dict[str, tuple[float, int, str]] = {}
     phrases = _phrases()
@@ -132,8 +132,8 @@ def _scored(words: list[str], unit: str | None) -> Iterator[tuple[str, Guess]]:
             found = (score, -place, language)
             best[meaning] = max(best.get(meaning, found), found)
     for meaning, (score, _, language) in best.items():
-        yield meaning, Guess(meaning, score, unit if unit and _takes(meaning, unit) else None,
-                             language)
+        taken = unit if unit and _takes(meaning, unit) else None
+        yield meaning, HeadingGuess(meaning, score, taken, language)
 
 
 def _fitting(words: list[str]) -> Iterator[tuple[tuple[str, ...], float]]:

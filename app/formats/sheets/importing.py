@@ -18,12 +18,12 @@ from app.formats.sheets.dropping import (
     with_kinds, without_cancelled, without_doubles, without_hidden, without_sums,
 )
 from app.formats.sheets.fleet import Incomplete
-from app.formats.sheets.geography import Ground, far_off, ground_of
+from app.formats.sheets.geography import TableGeography, far_off, ground_of
 from app.formats.sheets.looks import with_looks
 from app.formats.sheets.meanings import MEANINGS
 from app.formats.sheets.nights import into_the_night
 from app.formats.sheets.plan_rules import fairness_of
-from app.formats.sheets.questions import Asking, Question
+from app.formats.sheets.questions import Question, Questionnaire
 from app.formats.sheets.readers import read
 from app.formats.sheets.rejoining import rejoined
 from app.formats.sheets.related import relations_of, stops_called
@@ -65,7 +65,7 @@ def import_file(content: bytes, settings: ImportSettings, finder: Finder = NO_FI
 def _columns(file: SheetFile, settings: ImportSettings) -> tuple[Import, Chosen]:
     """Return a file with its columns known, and what its other sheets are for."""
     mapping = settings.mapping
-    asking = Asking(mapping.answers)
+    asking = Questionnaire(mapping.answers)
     states_fleet = settings.vehicles is not None or settings.capacity is not None
     found = chosen(file, mapping, asking, states_fleet)
     if not found.table.rows:
@@ -148,7 +148,7 @@ def _serve(work: Import, entries: Sequence[Entry], refused: frozenset[int],
     work.errors += wrong + errors
 
 
-def _complete(work: Import, depots: Sequence[Row], ground: Ground, settings: ImportSettings,
+def _complete(work: Import, depots: Sequence[Row], ground: TableGeography, settings: ImportSettings,
               road_profiles: Collection[str]) -> None:
     """Make the request, unless there are errors. In place."""
     if len(work.stops) > MAX_CUSTOMERS:
@@ -250,7 +250,7 @@ def _days_of_clocks(work: Import) -> list[date]:
 
 
 def _ground(work: Import, rows: Sequence[Row], settings: ImportSettings,
-            finder: Finder) -> Ground:
+            finder: Finder) -> TableGeography:
     """Return how the file states places; note what is doubtful or lacks. In place."""
     language = language_of(work.columns)
     ground = ground_of(rows, language != "en", stated_depot(settings))
@@ -267,8 +267,8 @@ def _ground(work: Import, rows: Sequence[Row], settings: ImportSettings,
     return ground
 
 
-def _with_addresses(work: Import, rows: Sequence[Row], ground: Ground, finder: Finder,
-                    keeps: bool) -> Ground:
+def _with_addresses(work: Import, rows: Sequence[Row], ground: TableGeography, finder: Finder,
+                    keeps: bool) -> TableGeography:
     """Return a ground that knows where addresses are; note what is doubtful. In place."""
     located = locate(rows, ground, finder, keeps=keeps)
     work.doubts += located.doubts

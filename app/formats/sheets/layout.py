@@ -18,7 +18,7 @@ KNOWN_SHARE = 0.5
 
 
 @dataclass(frozen=True)
-class Origin:
+class RowOrigin:
     """Where rows of a table come from, that are not those of its own sheet."""
 
     first: int  # row
@@ -35,7 +35,7 @@ class Table:
     headings: tuple[str, ...]
     rows: tuple[int, ...]  # those that hold anything
     num_empty: int
-    origins: tuple[Origin, ...] = ()
+    origins: tuple[RowOrigin, ...] = ()
 
     def name(self, row: int, column: int) -> str:
         """Return what a spreadsheet calls a cell, such as `C17` or `Tuesday!C17`."""

@@ -39,7 +39,7 @@ MOST_ROWS = 100
 Data = dict[str, Any]
 
 
-class Line(NamedTuple):
+class NamedLine(NamedTuple):
     """A name and what stands beside it."""
 
     name: str | None  # None: it is none that is known
@@ -86,7 +86,7 @@ def fairness_of(sheet: Sheet, style: Style) -> tuple[Data, list[Doubt]]:
     return stated, doubts
 
 
-def _lines(sheet: Sheet) -> Iterator[Line]:
+def _lines(sheet: Sheet) -> Iterator[NamedLine]:
     """Yield the rows with a name and a value, but for a row of headings."""
     for number, row in enumerate(sheet.rows[:MOST_ROWS]):
         cells = [(column, raw) for column, raw in enumerate(row) if raw is not None]
@@ -95,10 +95,11 @@ def _lines(sheet: Sheet) -> Iterator[Line]:
         (_, name), (column, raw) = cells[:2]
         known = NAMES.get(simple(name))
         if known is not None or number:
-            yield Line(known, shown(name)[:80], raw, f"{sheet.name}!{cell_name(number, column)}")
+            yield NamedLine(known, shown(name)[:80], raw,
+                            f"{sheet.name}!{cell_name(number, column)}")
 
 
-def _value(line: Line, style: Style) -> Any:
+def _value(line: NamedLine, style: Style) -> Any:
     try:
         if line.name != "balance":
             found = number_of(line.raw, style.comma)

@@ -33,7 +33,7 @@ class Question:
 
 
 @dataclass(frozen=True)
-class Asked:
+class AnsweredQuestion:
     """A question and how it was answered."""
 
     question: Question
@@ -42,11 +42,11 @@ class Asked:
 
 
 @dataclass
-class Asking:
+class Questionnaire:
     """The questions of one import, and the answers given to them."""
 
     given: Mapping[str, str]
-    asked: list[Asked] = field(default_factory=list)
+    asked: list[AnsweredQuestion] = field(default_factory=list)
     errors: list[CellError] = field(default_factory=list)
 
     def ask(self, question: Question, stated: str | None = None) -> str | None:
@@ -65,7 +65,7 @@ class Asking:
                     f"{', '.join(question.choices)}.", question.cell))
             given = None
         answer = question.default if given is None else given
-        self.asked.append(Asked(question, answer, given is not None))
+        self.asked.append(AnsweredQuestion(question, answer, given is not None))
         return answer
 
 

@@ -8,7 +8,7 @@ from typing import Any, NamedTuple
 from app.formats.sheets.cells import Doubt
 from app.formats.sheets.customers import Entry
 from app.formats.sheets.headings import simple
-from app.formats.sheets.questions import Asking, Question
+from app.formats.sheets.questions import Question, Questionnaire
 from app.formats.sheets.rows import Row
 from app.formats.sheets.vans import Van
 
@@ -32,14 +32,14 @@ SHARE_OF_HOUR = 0.25
 MOST_NUMBERED = 1000
 """Single vehicles of a type that are known by name."""
 
-class Relation(NamedTuple):
+class StatedRelation(NamedTuple):
     """A relation of the request, and the first cell that states it."""
 
     stated: Data
     cell: str
 
 
-class Order(NamedTuple):
+class StatedOrder(NamedTuple):
     """The first cell that states who is before whom, and all rows that do."""
 
     cell: str
@@ -47,7 +47,7 @@ class Order(NamedTuple):
 
 
 def relations_of(stops: Sequence[Entry],
-                 asking: Asking) -> tuple[list[Relation], list[Doubt]]:
+                 asking: Questionnaire) -> tuple[list[StatedRelation], list[Doubt]]:
     """Return who is served together, apart or in order, and which names bind nobody. In place.
 
     A cell names another customer or shipment, or a group that other rows name too. A shipment
@@ -66,7 +66,7 @@ def relations_of(stops: Sequence[Entry],
                     sets.setdefault(tuple(dict.fromkeys(group)), first[name][0])
             else:
                 alone.append(_alone(*first[name]))
-        found += [Relation({**stated, "customers": list(group)}, cell)
+        found += [StatedRelation({**stated, "customers": list(group)}, cell)
                   for group, cell in sets.items()]
     return found, alone
 
@@ -77,9 +77,9 @@ def _alone(cell: str, text: str) -> Doubt:
 
 
 def _orders(stops: Sequence[Entry], known: Mapping[str, Sequence[str]],
-            asking: Asking) -> tuple[list[Relation], list[Doubt]]:
+            asking: Questionnaire) -> tuple[list[StatedRelation], list[Doubt]]:
     """Return who is served before whom, and which names are nobody's. In place."""
-    orders: dict[tuple[str, str], Order] = {}
+    orders: dict[tuple[str, str], StatedOrder] = {}
     alone = []
     for stop in stops:
         for row, meaning in product(stop.rows, ("before", "after")):
@@ -90,7 +90,7 @@ def _orders(stops: Sequence[Entry], known: Mapping[str, Sequence[str]],
                 for other in others:
                     pair = stop.last, other
                     orders.setdefault(pair if meaning == "before" else pair[::-1],
-                                      Order(row.cell(meaning), [])).rows.append(row)
+                                      StatedOrder(row.cell(meaning), [])).rows.append(row)
     alone += _lags_alone(stops, orders.values())
     if not orders:
         return [], alone
@@ -102,8 +102,8 @@ def _orders(stops: Sequence[Entry], known: Mapping[str, Sequence[str]],
         {ONE: "By one vehicle", ANY: "By any, trucks alone"}, ONE,
         {"count": len(orders), "first": first[:80], "second": second[:80]}, cell=cell))
     across = {} if answer == ONE else {"same_vehicle": False}
-    return [Relation({"kind": "before", "customers": [before, begins[behind]], **across,
-                      **_lags(order.rows)}, order.cell)
+    return [StatedRelation({"kind": "before", "customers": [before, begins[behind]], **across,
+                            **_lags(order.rows)}, order.cell)
             for (before, behind), order in orders.items()], alone
 
 
@@ -116,7 +116,7 @@ def _lags(rows: Iterable[Row]) -> Data:
     return found
 
 
-def _lags_alone(stops: Sequence[Entry], orders: Iterable[Order]) -> list[Doubt]:
+def _lags_alone(stops: Sequence[Entry], orders: Iterable[StatedOrder]) -> list[Doubt]:
     """Return what is told of rows with a time between two, and nobody before or behind."""
     ordered = {row.number for order in orders for row in order.rows}
     cells = [row.cell("min_lag", "max_lag") for stop in stops for row in stop.rows
@@ -138,7 +138,7 @@ def stops_called(stops: Sequence[Entry]) -> dict[str, list[str]]:
 
 def _names_groups(kind: str, groups: Mapping[str, Sequence[str]],
                   first: Mapping[str, tuple[str, str]], known: Mapping[str, Sequence[str]],
-                  asking: Asking) -> bool:
+                  asking: Questionnaire) -> bool:
     """Return whether cells name groups alone; ask where names are customers' too. In place."""
     either = [name for name, members in groups.items() if name in known and len(members) > 1]
     if not either:

@@ -11,9 +11,9 @@ from app.formats.sheets.cells import CellError, Doubt, MisreadError
 from app.formats.sheets.columns import Column
 from app.formats.sheets.customers import Entry, placed
 from app.formats.sheets.fleet import Incomplete, fleet_of
-from app.formats.sheets.geography import Ground, Pair, depot_pair, on_globe
+from app.formats.sheets.geography import Pair, TableGeography, depot_pair, on_globe
 from app.formats.sheets.headings import without_unit
-from app.formats.sheets.related import Relation, price_others
+from app.formats.sheets.related import StatedRelation, price_others
 from app.formats.sheets.rows import Row
 from app.formats.sheets.schemas import ImportSettings
 from app.formats.sheets.work import Import
@@ -43,7 +43,7 @@ LONGEST_NAME, LONGEST_UNIT = 200, 50
 Data = dict[str, Any]
 
 
-def request_of(work: Import, depots: Sequence[Row], ground: Ground,
+def request_of(work: Import, depots: Sequence[Row], ground: TableGeography,
                settings: ImportSettings) -> tuple[Data, list[Doubt]]:
     """Return a request and what was assumed for it.
 
@@ -86,7 +86,7 @@ def _loads(columns: Sequence[Column]) -> Data:
                                 for column in amounts]}
 
 
-def look_over(request: Data, work: Import, relations: Sequence[Relation],
+def look_over(request: Data, work: Import, relations: Sequence[StatedRelation],
               road_profiles: Collection[str]) -> tuple[
                   list[CellError], tuple[RequestWarning, ...]]:
     """Return what planning doesn't take, at the cells where it comes from, and what looks wrong."""
@@ -114,7 +114,7 @@ def stated_depot(settings: ImportSettings) -> Pair | None:
         raise Incomplete("DEPOT", f"The depot can't be read: {error}.") from error
 
 
-def _cell(error: InputError, work: Import, relations: Sequence[Relation]) -> str | None:
+def _cell(error: InputError, work: Import, relations: Sequence[StatedRelation]) -> str | None:
     """Return the cell that an error of the request is about; None: it is about none."""
     if related := _RELATION.match(error.path):
         return relations[int(related[1])].cell
@@ -132,7 +132,7 @@ def _cell(error: InputError, work: Import, relations: Sequence[Relation]) -> str
     return row.cell(*sorted(CELLS.get(found[2], ("name",)), key=lambda name: not row.get(name)))
 
 
-def _depots(stops: Sequence[Entry], rows: Sequence[Row], ground: Ground,
+def _depots(stops: Sequence[Entry], rows: Sequence[Row], ground: TableGeography,
             settings: ImportSettings) -> tuple[list[Data], list[Doubt]]:
     stated = stated_depot(settings)
     if stated is not None:

@@ -6,7 +6,7 @@ from typing import Annotated, Any, Literal
 from pydantic import BaseModel, ConfigDict, Field
 
 from app.formats.sheets.meanings import MEANINGS
-from app.formats.sheets.questions import Asked, QuestionKind
+from app.formats.sheets.questions import AnsweredQuestion, QuestionKind
 from app.maps.addresses.geocoder import Quality
 from app.schemas.fairness import FairnessInput
 from app.schemas.fields import Amount, Demand, Input, Money, Speed
@@ -180,7 +180,7 @@ class QuestionReply(_Reply):
     is_answered: bool = Field(description="Whether that was stated.")
 
     @classmethod
-    def of(cls, asked: Asked) -> "QuestionReply":
+    def of(cls, asked: AnsweredQuestion) -> "QuestionReply":
         """Return what is told of a question."""
         question = asked.question
         return cls(

@@ -5,7 +5,7 @@ from dataclasses import dataclass, replace
 from itertools import pairwise
 
 from app.formats.sheets.headings import (
-    HEADING, LONGEST_LOOK, MOST_LOOKED_AT, SURE, Guess, guesses, simple,
+    HEADING, LONGEST_LOOK, MOST_LOOKED_AT, SURE, HeadingGuess, guesses, simple,
 )
 from app.formats.sheets.meanings import OF_PICKUPS, OF_SIDES, meaning_at
 
@@ -70,7 +70,7 @@ class Side:
     """Which place a heading is about, and what it says of it."""
 
     name: str = OWN
-    found: tuple[Guess, ...] = ()
+    found: tuple[HeadingGuess, ...] = ()
 
 
 def sides_of(headings: Sequence[str], are_points: Sequence[bool]) -> list[Side]:
@@ -89,7 +89,7 @@ def sides_of(headings: Sequence[str], are_points: Sequence[bool]) -> list[Side]:
     return [side if side.name in kept else Side() for side in sides]
 
 
-def guesses_at(heading: str, side: Side) -> tuple[Guess, ...]:
+def guesses_at(heading: str, side: Side) -> tuple[HeadingGuess, ...]:
     """Return what a heading may mean, of the place that it is about."""
     if side.name == OWN:
         return guesses(heading)
@@ -99,13 +99,13 @@ def guesses_at(heading: str, side: Side) -> tuple[Guess, ...]:
                  for guess in side.found)
 
 
-def _is_place(guess: Guess) -> bool:
+def _is_place(guess: HeadingGuess) -> bool:
     return guess.meaning in PLACE and guess.score >= HEADING
 
 
 def _end(heading: str) -> Side:
     """Return which place is below a heading that says no more than from where, or to where."""
-    return Side(BARE_ENDS[simple(heading)], (Guess("point", SURE),))
+    return Side(BARE_ENDS[simple(heading)], (HeadingGuess("point", SURE),))
 
 
 def _side(heading: str) -> Side:
@@ -147,14 +147,14 @@ def _parts(words: Sequence[str]) -> Iterator[tuple[str, list[str], bool]]:
             yield ENDS[word], rest, True
 
 
-def _bare(heading: str, rest: Sequence[str]) -> Iterator[Guess]:
+def _bare(heading: str, rest: Sequence[str]) -> Iterator[HeadingGuess]:
     """Yield what a heading means that says hardly more than the place."""
     words = set(_words(heading))
     if not rest and words & PEOPLE:
-        yield Guess("name", SAID_ALONE)
+        yield HeadingGuess("name", SAID_ALONE)
     elif not rest and words & BARE:
-        yield Guess("address", SAID_ALONE)
+        yield HeadingGuess("address", SAID_ALONE)
     elif len(rest) == 1 and rest[0] in WHEN:
-        yield Guess("window", SAID_SO)
+        yield HeadingGuess("window", SAID_SO)
     elif len(rest) == 1 and rest[0] in WHERE:
-        yield Guess("address", SAID_SO)
+        yield HeadingGuess("address", SAID_SO)

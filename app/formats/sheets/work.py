@@ -8,7 +8,7 @@ from app.formats.sheets.clocks import Style
 from app.formats.sheets.columns import Column
 from app.formats.sheets.customers import Entry
 from app.formats.sheets.layout import Table
-from app.formats.sheets.questions import Asking
+from app.formats.sheets.questions import Questionnaire
 from app.formats.sheets.schemas import LookUpReply
 from app.formats.sheets.vans import Van
 from app.requests.warnings.warning import RequestWarning
@@ -21,7 +21,7 @@ class Import:
     table: Table
     style: Style
     columns: list[Column]
-    asking: Asking
+    asking: Questionnaire
     vans: list[Van] = field(default_factory=list)  # those that a sheet of the file lists
     fairness: dict[str, Any] = field(default_factory=dict)  # what a sheet says of the whole plan
     doubts: list[Doubt] = field(default_factory=list)

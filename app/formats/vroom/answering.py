@@ -9,7 +9,7 @@ from pydantic_core import to_json
 from app.formats.vroom.errors import INPUT, TOO_LARGE, VroomError, input_error, refused
 from app.formats.vroom.places import StatedPlaces, find_places
 from app.formats.vroom.reading import read_request
-from app.formats.vroom.reply import Writer
+from app.formats.vroom.reply import ReplyWriter
 from app.formats.vroom.roads import add_lines
 from app.formats.vroom.schemas import VroomOptionsInput, VroomRequest
 from app.formats.vroom.translate import given_routes, translate
@@ -22,13 +22,13 @@ from app.serving.load.received import ReceivedBody
 from app.serving.settings import Settings
 from model.dialects.vroom.checking import drive, route_faults
 from model.dialects.vroom.errors import RefusedError
-from model.dialects.vroom.kinds import Kind
+from model.dialects.vroom.kinds import VehicleKind
 from model.dialects.vroom.models import Routes
-from model.dialects.vroom.places import Places
+from model.dialects.vroom.places import Sites
 from model.dialects.vroom.planning import Planning
 from model.dialects.vroom.reasons import reasons_of
 from model.dialects.vroom.request import Request
-from model.dialects.vroom.timing import Driver, TimedRoute
+from model.dialects.vroom.timing import RouteTimer, TimedVroomRoute
 from model.dialects.vroom.work import LegLimit
 from model.engine.cores import num_cores
 from model.planner import Listener, Planner, PlanOptions, PlanResult, Progress
@@ -132,7 +132,7 @@ def _answer(planner: Planner, stated: VroomRequest, places: StatedPlaces, body: 
     solved = time.perf_counter()
     reasons = reasons_of(request, places, planning.kinds, {route.vehicle for route in routes},
                          [job for job in range(len(request.jobs)) if job not in found.served])
-    return Writer(stated, places, request.is_timed, reasons).reply(
+    return ReplyWriter(stated, places, request.is_timed, reasons).reply(
         routes, loading=int(1000 * (loaded - body.received_at)),
         solving=int(1000 * (solved - loaded)))
 
@@ -149,13 +149,13 @@ def timed(stated: VroomRequest, request: Request, places: StatedPlaces,
     loaded = time.perf_counter()
     routes = []
     for given in given_routes(stated):
-        route = Driver(request, places, given.vehicle).drive_given(given)
+        route = RouteTimer(request, places, given.vehicle).drive_given(given)
         if route is None:
             raise VroomError(INPUT, "Infeasible route for vehicle "
                                     f"{request.vehicles[given.vehicle].id}.")
         routes.append(route)
     solved = time.perf_counter()
-    reply = Writer(stated, places, is_timed=True).reply(
+    reply = ReplyWriter(stated, places, is_timed=True).reply(
         routes, loading=int(1000 * (loaded - body.received_at)),
         solving=int(1000 * (solved - loaded)))
     add_violations(stated, reply)
@@ -170,7 +170,7 @@ def search_seconds(options: VroomOptionsInput, settings: Settings) -> float:
     return min(seconds, settings.max_plan_seconds)
 
 
-def stated_routes(request: Request, places: Places, kinds: Sequence[Kind]) -> Routes:
+def stated_routes(request: Request, places: Sites, kinds: Sequence[VehicleKind]) -> Routes:
     """Return the routes that `steps` describe, by the index of the vehicle's kind.
 
     Raises
@@ -191,8 +191,8 @@ def stated_routes(request: Request, places: Places, kinds: Sequence[Kind]) -> Ro
     return routes
 
 
-def name_vehicles(request: Request, places: Places, kinds: Sequence[Kind],
-                  routes: Routes) -> list[TimedRoute]:
+def name_vehicles(request: Request, places: Sites, kinds: Sequence[VehicleKind],
+                  routes: Routes) -> list[TimedVroomRoute]:
     """Return the routes, each with a vehicle of its kind, in the order of vehicles."""
     timed = [drive(request, places, vehicle, jobs)
              for number, its_routes in routes.items()
@@ -200,7 +200,7 @@ def name_vehicles(request: Request, places: Places, kinds: Sequence[Kind],
     return sorted(timed, key=lambda route: route.vehicle)
 
 
-def _matched(request: Request, kind: Kind,
+def _matched(request: Request, kind: VehicleKind,
              routes: Sequence[Sequence[int]]) -> Iterator[tuple[int, Sequence[int]]]:
     """Yield vehicles that are alike with their routes: the one most like its `steps`, or any."""
     left = list(routes)

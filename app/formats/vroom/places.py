@@ -16,7 +16,7 @@ from app.maps.roads.roads import NO_ROADS, Roads
 from app.requests.conversion.preparing import UNHURRIED, Preparing
 from app.requests.conversion.work import legs_seconds
 from app.schemas.limits import MAX_LEGS
-from model.dialects.vroom.places import NOWHERE, Legs, Places
+from model.dialects.vroom.places import NOWHERE, ProfileLegs, Sites
 from model.problem import FloatArray, IntArray
 from model.travel.matrices import great_circle_distances, local_coordinates
 
@@ -25,7 +25,7 @@ _METRES_PER_SECOND = 3.6
 
 
 @dataclass(frozen=True, eq=False)
-class StatedPlaces(Places):
+class StatedPlaces(Sites):
     """The places of a request, and how it and the reply tell of them."""
 
     coordinates: tuple[Coordinates | None, ...]  # (site,)
@@ -152,7 +152,7 @@ class _LegFinder:
         if self._geometry and any(point is None for point, _ in known):
             raise VroomError(INPUT, "Route geometry request with missing coordinates.")
 
-    def find(self, profile: str) -> Legs:
+    def find(self, profile: str) -> ProfileLegs:
         """Return the legs of a profile."""
         stated = self._stated(profile)
         costs = None if stated.costs is None else self._table(profile, "costs", stated.costs)
@@ -162,18 +162,19 @@ class _LegFinder:
                                         f"durations for {profile} profile.")
             if self.is_on_roads(profile):
                 table = ask_roads(self._roads, profile, self._lon_lat, self._preparing)
-                return Legs(_whole(table.durations_s), _whole(table.distances_m), costs, True)
+                return ProfileLegs(_whole(table.durations_s), _whole(table.distances_m), costs,
+                                   True)
             metres = self._great_circles
             speed = self._speed(profile) / _METRES_PER_SECOND
-            return Legs(_whole(metres / speed), _whole(metres), costs, True)
+            return ProfileLegs(_whole(metres / speed), _whole(metres), costs, True)
         durations = self._table(profile, "durations", stated.durations)
         if stated.distances is not None:
             distances = self._table(profile, "distances", stated.distances)
-            return Legs(durations, distances, costs, True)
+            return ProfileLegs(durations, distances, costs, True)
         if self._geometry or profile in self._per_km or (
                 profile in self._limited and all(point is not None for point, _ in self._known)):
-            return Legs(durations, _whole(self._great_circles), costs, True)
-        return Legs(durations, np.zeros_like(durations), costs, False)
+            return ProfileLegs(durations, _whole(self._great_circles), costs, True)
+        return ProfileLegs(durations, np.zeros_like(durations), costs, False)
 
     def is_on_roads(self, profile: str) -> bool:
         """Tell whether the service's roads tell the legs of a profile."""

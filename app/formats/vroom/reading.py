@@ -13,7 +13,7 @@ from pydantic_core import from_json
 
 from app.formats.vroom.errors import INPUT, TOO_LARGE, VroomError, input_error
 from app.formats.vroom.schemas import DEFAULT_COST_PER_HOUR, VroomRequest, VroomVehicleInput
-from app.formats.vroom.tasks import Task, tasks_of
+from app.formats.vroom.tasks import VroomTask, tasks_of
 from app.requests.refusal import MAX_COUNTED_ERRORS, require_readable
 from app.schemas.errors import InvalidRequestError, schema_error
 
@@ -70,7 +70,7 @@ def _refusal(error: ValidationError, body: bytes) -> VroomError:
     return input_error([f"{fault.path}: {fault.message}" for fault in found])
 
 
-def _faults(request: VroomRequest, tasks: Sequence[Task]) -> Faults:
+def _faults(request: VroomRequest, tasks: Sequence[VroomTask]) -> Faults:
     if not request.vehicles:
         yield "No vehicle defined."
         return
@@ -152,7 +152,7 @@ def _shipment_faults(request: VroomRequest) -> Faults:
                                     len(shipment.amount))
 
 
-def _place_faults(tasks: Sequence[Task]) -> Faults:
+def _place_faults(tasks: Sequence[VroomTask]) -> Faults:
     for task in tasks:
         stated = task.stated
         if stated.location is None and stated.location_index is None:
@@ -171,7 +171,7 @@ def _window_faults(kind: str, number: int, windows: list[tuple[int, int]]) -> Fa
         yield f"Unsorted or overlapping time-windows for {kind} {number}."
 
 
-def _step_faults(request: VroomRequest, tasks: Sequence[Task]) -> Faults:
+def _step_faults(request: VroomRequest, tasks: Sequence[VroomTask]) -> Faults:
     known = {(task.kind, task.id) for task in tasks}
     planned: set[tuple[str, int]] = set()
     for vehicle in request.vehicles:

@@ -11,7 +11,7 @@ from app.formats.vroom.schemas import VroomBreakInput, VroomPlaceInput, VroomReq
 from app.formats.vroom.tasks import tasks_of
 from app.formats.vroom.translate import breaks_of
 from model.dialects.vroom.places import NOWHERE
-from model.dialects.vroom.timing import COST_SCALE, TimedRoute
+from model.dialects.vroom.timing import COST_SCALE, TimedVroomRoute
 from model.dialects.vroom.windows import TIME_SCALE
 
 Data = dict[str, Any]
@@ -20,7 +20,7 @@ SECONDS_PER_HOUR = 3600
 METRES_PER_KM = 1000
 
 
-class Writer:
+class ReplyWriter:
     """Writes the reply to one request."""
 
     def __init__(self, request: VroomRequest, places: StatedPlaces, is_timed: bool,
@@ -41,7 +41,7 @@ class Writer:
         self._num_amounts = len(request.vehicles[0].capacity or ())
         self._is_timed = is_timed
 
-    def reply(self, routes: Sequence[TimedRoute], loading: int, solving: int) -> Data:
+    def reply(self, routes: Sequence[TimedVroomRoute], loading: int, solving: int) -> Data:
         """Return the reply.
 
         Parameters
@@ -71,7 +71,7 @@ class Writer:
             "routes": written,
         }
 
-    def _route(self, route: TimedRoute) -> Data:
+    def _route(self, route: TimedVroomRoute) -> Data:
         vehicle = self._request.vehicles[route.vehicle]
         steps = self._steps(route)
         setup = sum(halt.setup for halt in route.halts)
@@ -93,7 +93,7 @@ class Writer:
             **self._geometry(steps),
         }
 
-    def _cost(self, route: TimedRoute, duration: int, task_time: int) -> int:
+    def _cost(self, route: TimedVroomRoute, duration: int, task_time: int) -> int:
         """Return a route's cost, rounded where VROOM rounds."""
         costs = self._request.vehicles[route.vehicle].costs
         legs = self._places.legs[self._request.vehicles[route.vehicle].profile]
@@ -103,7 +103,7 @@ class Writer:
                          + route.distances[-1] * costs.per_km / METRES_PER_KM + 0.5)
         return costs.fixed + travel + costs.per_task_hour * task_time // COST_SCALE
 
-    def _steps(self, route: TimedRoute) -> list[Data]:
+    def _steps(self, route: TimedVroomRoute) -> list[Data]:
         places, vehicle = self._places, route.vehicle
         sites = [int(places.jobs[job]) for job in route.jobs]
         known = [site for site in (int(places.starts[vehicle]), *sites, int(places.ends[vehicle]))
@@ -126,7 +126,7 @@ class Writer:
                           "violations": [], **self._distance(route.distances[gap])})
         return steps
 
-    def _rests(self, route: TimedRoute, gap: int, load: Sequence[int],
+    def _rests(self, route: TimedVroomRoute, gap: int, load: Sequence[int],
                before: Data) -> Iterator[Data]:
         """Yield the breaks in a gap of a route, behind the step before."""
         breaks = breaks_of(self._request.vehicles[route.vehicle])

@@ -8,7 +8,7 @@ from model.dialects.vroom.request import JobKind
 
 
 @dataclass(frozen=True, slots=True)
-class Task:
+class VroomTask:
     """A job, or an end of a shipment."""
 
     kind: JobKind
@@ -25,25 +25,25 @@ class Task:
         return self.stated.id
 
 
-def tasks_of(request: VroomRequest) -> tuple[Task, ...]:
+def tasks_of(request: VroomRequest) -> tuple[VroomTask, ...]:
     """Return the tasks of a request."""
     return (*_jobs(request), *_ends(request))
 
 
-def _jobs(request: VroomRequest) -> Iterator[Task]:
+def _jobs(request: VroomRequest) -> Iterator[VroomTask]:
     for job in request.jobs:
         is_old = job.delivery is None and job.pickup is None
         delivery = job.amount if is_old else job.delivery
-        yield Task("job", job, tuple(delivery or ()), tuple(job.pickup or ()), job.skills,
-                   job.priority)
+        yield VroomTask("job", job, tuple(delivery or ()), tuple(job.pickup or ()), job.skills,
+                        job.priority)
 
 
-def _ends(request: VroomRequest) -> Iterator[Task]:
+def _ends(request: VroomRequest) -> Iterator[VroomTask]:
     first = len(request.jobs)
     for number, shipment in enumerate(request.shipments):
         amount = tuple(shipment.amount or ())
         pickup = first + 2 * number
-        yield Task("pickup", shipment.pickup, (), amount, shipment.skills,
-                   shipment.priority, pickup + 1)
-        yield Task("delivery", shipment.delivery, amount, (), shipment.skills,
-                   shipment.priority, pickup)
+        yield VroomTask("pickup", shipment.pickup, (), amount, shipment.skills,
+                        shipment.priority, pickup + 1)
+        yield VroomTask("delivery", shipment.delivery, amount, (), shipment.skills,
+                        shipment.priority, pickup)

@@ -5,9 +5,9 @@ from collections.abc import Mapping
 from app.formats.vroom.schemas import (
     MAX_UINT, VroomBreakInput, VroomRequest, VroomStepInput, VroomVehicleInput, Windows,
 )
-from app.formats.vroom.tasks import Task, tasks_of
+from app.formats.vroom.tasks import VroomTask, tasks_of
 from model.dialects.vroom.request import (
-    Bounds, Break, Costs, GivenRoute, Job, Request, Vehicle, Window,
+    Costs, GivenRoute, Job, Request, StartBounds, VroomBreak, VroomVehicle, Window,
 )
 
 
@@ -31,8 +31,8 @@ def given_routes(stated: VroomRequest) -> list[GivenRoute]:
 def _given(number: int, vehicle: VroomVehicleInput,
            index_of: Mapping[tuple[str, int], int]) -> GivenRoute:
     number_of = {each.id: index for index, each in enumerate(breaks_of(vehicle))}
-    jobs, rests = list[tuple[int, Bounds]](), list[tuple[tuple[int, int], Bounds]]()
-    ends = {"start": Bounds(), "end": Bounds()}
+    jobs, rests = list[tuple[int, StartBounds]](), list[tuple[tuple[int, int], StartBounds]]()
+    ends = {"start": StartBounds(), "end": StartBounds()}
     for step in vehicle.steps:
         bounds = _bounds(step)
         if step.type in ends or step.id is None:
@@ -46,15 +46,15 @@ def _given(number: int, vehicle: VroomVehicleInput,
         ends["end"], tuple(bounds for _, bounds in jobs), tuple(bounds for _, bounds in rests))
 
 
-def _bounds(step: VroomStepInput) -> Bounds:
+def _bounds(step: VroomStepInput) -> StartBounds:
     """Return when a step has to start: then, or between two times."""
     at = [] if step.service_at is None else [step.service_at]
     after = [time for time in (*at, step.service_after) if time is not None]
     before = [time for time in (*at, step.service_before) if time is not None]
-    return Bounds(max(after, default=None), min(before, default=None))
+    return StartBounds(max(after, default=None), min(before, default=None))
 
 
-def _job(task: Task) -> Job:
+def _job(task: VroomTask) -> Job:
     stated = task.stated
     return Job(
         id=stated.id, setup=stated.setup, service=stated.service,
@@ -73,9 +73,9 @@ def breaks_of(stated: VroomVehicleInput) -> list[VroomBreakInput]:
     return sorted(stated.breaks, key=lambda each: min(each.time_windows or [(0, MAX_UINT)]))
 
 
-def _vehicle(stated: VroomVehicleInput, index_of: Mapping[tuple[str, int], int]) -> Vehicle:
+def _vehicle(stated: VroomVehicleInput, index_of: Mapping[tuple[str, int], int]) -> VroomVehicle:
     costs = stated.costs
-    return Vehicle(
+    return VroomVehicle(
         id=stated.id, profile=stated.profile, capacity=tuple(stated.capacity or ()),
         costs=Costs(costs.fixed, costs.per_hour, costs.per_km, costs.per_task_hour),
         skills=frozenset(stated.skills), type=stated.type, time_window=stated.time_window,
@@ -83,6 +83,6 @@ def _vehicle(stated: VroomVehicleInput, index_of: Mapping[tuple[str, int], int])
         max_travel_time=stated.max_travel_time, max_distance=stated.max_distance,
         steps=tuple(index_of[step.type, step.id] for step in stated.steps
                     if step.id is not None and (step.type, step.id) in index_of),
-        breaks=tuple(Break(each.id, each.service, _windows(each.time_windows),
-                           None if each.max_load is None else tuple(each.max_load))
+        breaks=tuple(VroomBreak(each.id, each.service, _windows(each.time_windows),
+                                None if each.max_load is None else tuple(each.max_load))
                      for each in breaks_of(stated)))

@@ -4,7 +4,7 @@ from collections.abc import Iterable, Iterator, Mapping
 from typing import Any
 
 from app.formats.vroom.schemas import VroomBreakInput, VroomRequest, VroomVehicleInput, Windows
-from app.formats.vroom.tasks import Task, tasks_of
+from app.formats.vroom.tasks import VroomTask, tasks_of
 
 Data = dict[str, Any]
 
@@ -21,7 +21,7 @@ Found = tuple[str, int]
 def add_violations(request: VroomRequest, reply: Data) -> None:
     """Tell in a reply with the routes that `steps` state what they violate. In place."""
     vehicles = {vehicle.id: vehicle for vehicle in request.vehicles}
-    tasks: dict[Name, Task] = {(task.kind, task.id): task for task in tasks_of(request)}
+    tasks: dict[Name, VroomTask] = {(task.kind, task.id): task for task in tasks_of(request)}
     every = []
     for route in reply["routes"]:
         found = _Route(request, vehicles[route["vehicle"]], tasks, route).find()
@@ -34,7 +34,7 @@ class _Route:
     """Finds what one route violates."""
 
     def __init__(self, request: VroomRequest, vehicle: VroomVehicleInput,
-                 tasks: Mapping[Name, Task], route: Data) -> None:
+                 tasks: Mapping[Name, VroomTask], route: Data) -> None:
         self._request = request
         self._vehicle = vehicle
         self._breaks = {each.id: each for each in vehicle.breaks}
@@ -92,7 +92,7 @@ class _Route:
                                          else self._tasks[step["type"], step["id"]].stated)
         yield from _missed(time, stated.time_windows)
 
-    def _is_unpaired(self, task: Task, place: int) -> bool:
+    def _is_unpaired(self, task: VroomTask, place: int) -> bool:
         """Tell whether a shipment's other end isn't on the route where it should be."""
         other = self._ordered[task.mate or 0]
         where = self._place.get((other.kind, other.id))

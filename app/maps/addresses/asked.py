@@ -23,7 +23,7 @@ BEFORE_NUMBERS = frozenset(("nr", "no", "num", "numero", "number", "n", "nro", "
 SHORTEST_POSTCODE = 4
 
 
-class Span(NamedTuple):
+class WordSpan(NamedTuple):
     """Words that follow each other, from the first to before the last."""
 
     first: int
@@ -40,21 +40,21 @@ class Number(NamedTuple):
 
 
 @dataclass(frozen=True)
-class Asked:
+class AddressWords:
     """The words of an address."""
 
     words: tuple[str, ...]
 
     @classmethod
-    def of(cls, address: str) -> "Asked":
+    def of(cls, address: str) -> "AddressWords":
         """Return what an address says."""
         return cls(words_of(address)[:MOST_WORDS])
 
     @cached_property
-    def spans(self) -> Mapping[str, Span]:
+    def spans(self) -> Mapping[str, WordSpan]:
         """What may be the name of a street or town, by its key."""
         count = len(self.words)
-        return {key: Span(first, last) for first in range(count)
+        return {key: WordSpan(first, last) for first in range(count)
                 for last in range(first + 1, min(count, first + LONGEST_NAME) + 1)
                 if any(map(str.isalpha, key := "".join(self.words[first:last])))}
 
@@ -63,16 +63,16 @@ class Asked:
         """All words that hold letters, as one."""
         return "".join(word for word in self.words if any(map(str.isalpha, word)))
 
-    def most_alike(self, key: str) -> tuple[float, Span] | None:
+    def most_alike(self, key: str) -> tuple[float, WordSpan] | None:
         """Return what is most like a name, and how much it is, if anything is."""
-        best: tuple[float, Span] | None = None
+        best: tuple[float, WordSpan] | None = None
         for text, span in self.spans.items():
             score = fuzz.ratio(key, text, score_cutoff=ALIKE if best is None else best[0] + 1e-9)
             if score:
                 best = score, span
         return best
 
-    def number_beside(self, span: Span) -> Number | None:
+    def number_beside(self, span: WordSpan) -> Number | None:
         """Return the house number behind a street's name, or before it."""
         after = span.last
         if after < len(self.words) and self.words[after] in BEFORE_NUMBERS:
@@ -89,7 +89,7 @@ class Asked:
             return Number(value, behind, True, frozenset((place, place + 1)))
         return Number(value, letter, False, frozenset((place,)))
 
-    def rest(self, span: Span, number: Number | None) -> list[str]:
+    def rest(self, span: WordSpan, number: Number | None) -> list[str]:
         """Return the other words."""
         used = set(range(*span)) | (number.words if number else set())
         return [word for place, word in enumerate(self.words) if place not in used]

@@ -3,7 +3,7 @@
 from pydantic import BaseModel, TypeAdapter
 
 from app.maps.addresses.geocoder import MOST_CANDIDATES, Quality
-from app.maps.addresses.places import Place
+from app.maps.addresses.places import AddressPlace
 from app.maps.addresses.server import GeocodingServer, path_with
 from app.maps.addresses.shapes import Latitude, Longitude
 
@@ -36,10 +36,10 @@ def path_of(address: str, server: GeocodingServer) -> str:
     return path_with("/search", query)
 
 
-def read(body: bytes) -> list[Place]:
+def read(body: bytes) -> list[AddressPlace]:
     """Return the places of an answer; raises pydantic's `ValidationError`."""
-    return [Place(place.lon, place.lat, place.display_name, _quality(place),
-                  place.address.house_number, place.address.road, place.address.postcode)
+    return [AddressPlace(place.lon, place.lat, place.display_name, _quality(place),
+                         place.address.house_number, place.address.road, place.address.postcode)
             for place in _PLACES.validate_json(body)]
 
 

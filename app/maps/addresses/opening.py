@@ -9,7 +9,7 @@ from app.maps.addresses.extract import ExtractGeocoder
 from app.maps.addresses.geocoder import Geocoder
 from app.maps.addresses.index import find_index
 from app.maps.addresses.serving import ServerGeocoder
-from app.maps.addresses.setting import Extract, GeocoderSettingError, Source, read_setting
+from app.maps.addresses.setting import AddressExtract, GeocoderSettingError, Source, read_setting
 from app.maps.streets.filing import folder_beside
 from app.serving.settings import Settings
 
@@ -38,7 +38,7 @@ def opened_addresses(settings: Settings) -> Addresses:
 
 
 def _geocoder(source: Source, cache: AnswerCache) -> Geocoder:
-    if isinstance(source, Extract):
+    if isinstance(source, AddressExtract):
         return ExtractGeocoder(_index(source.path))
     gap = source.server.gap
     turn = partial(cache.take_turn, source.server.host, gap) if gap else None

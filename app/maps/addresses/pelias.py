@@ -1,7 +1,7 @@
 """Pelias' search."""
 
 from app.maps.addresses.geocoder import MOST_CANDIDATES, Quality
-from app.maps.addresses.places import Place
+from app.maps.addresses.places import AddressPlace
 from app.maps.addresses.server import GeocodingServer, path_with
 from app.maps.addresses.shapes import Address, read_features
 
@@ -29,15 +29,15 @@ def path_of(address: str, server: GeocodingServer) -> str:
     return path_with("/search", query)
 
 
-def read(body: bytes) -> list[Place]:
+def read(body: bytes) -> list[AddressPlace]:
     """Return the places of an answer; raises pydantic's `ValidationError`."""
     return read_features(body, _Properties, _place)
 
 
-def _place(lon: float, lat: float, told: _Properties) -> Place:
-    return Place(lon, lat, told.label, _quality(told), told.housenumber, told.street,
-                 told.postalcode, (told.borough, told.locality, told.localadmin, told.county,
-                                   told.region, told.country))
+def _place(lon: float, lat: float, told: _Properties) -> AddressPlace:
+    return AddressPlace(lon, lat, told.label, _quality(told), told.housenumber, told.street,
+                        told.postalcode, (told.borough, told.locality, told.localadmin, told.county,
+                                          told.region, told.country))
 
 
 def _quality(told: _Properties) -> Quality:

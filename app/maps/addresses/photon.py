@@ -1,7 +1,7 @@
 """Photon's search."""
 
 from app.maps.addresses.geocoder import MOST_CANDIDATES, Quality
-from app.maps.addresses.places import Place
+from app.maps.addresses.places import AddressPlace
 from app.maps.addresses.server import GeocodingServer, path_with
 from app.maps.addresses.shapes import Address, read_features
 
@@ -21,12 +21,12 @@ def path_of(address: str, server: GeocodingServer) -> str:
     return path_with("/api", query)
 
 
-def read(body: bytes) -> list[Place]:
+def read(body: bytes) -> list[AddressPlace]:
     """Return the places of an answer; raises pydantic's `ValidationError`."""
     return read_features(body, _Properties, _place)
 
 
-def _place(lon: float, lat: float, told: _Properties) -> Place:
+def _place(lon: float, lat: float, told: _Properties) -> AddressPlace:
     quality: Quality = "town"
     if told.type in ("house", "street"):
         quality = "house" if told.type == "house" else "street"
@@ -35,5 +35,6 @@ def _place(lon: float, lat: float, told: _Properties) -> Place:
     town = f"{told.postcode} {told.city}".strip()
     parts = dict.fromkeys(part for part in (told.name, line, town, told.state, told.country)
                           if part)
-    return Place(lon, lat, ", ".join(parts), quality, told.housenumber, street, told.postcode,
-                 (told.district, told.city, told.county, told.state, told.country))
+    return AddressPlace(lon, lat, ", ".join(parts), quality, told.housenumber, street,
+                        told.postcode,
+                        (told.district, told.city, told.county, told.state, told.country))

@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass
 
-from app.maps.addresses.asked import Asked, has_word, names_in, postcodes_in
+from app.maps.addresses.asked import AddressWords, has_word, names_in, postcodes_in
 from app.maps.addresses.geocoder import QUALITIES, Candidate, Candidates, Quality
 from app.maps.addresses.likeliest import Ranked, likeliest
 from app.maps.addresses.spelling import house_numbers, is_number, key_of, words_of
@@ -11,7 +11,7 @@ LONGEST_LABEL = 300
 
 
 @dataclass(frozen=True)
-class Place:
+class AddressPlace:
     """A place as a server tells it."""
 
     lon: float
@@ -24,7 +24,7 @@ class Place:
     region: tuple[str, ...] = ()  # towns and all larger around it
 
 
-def judged(address: str, places: list[Place], by: str, is_strict: bool) -> Candidates:
+def judged(address: str, places: list[AddressPlace], by: str, is_strict: bool) -> Candidates:
     """Return what an address may mean, of what a server answered.
 
     Servers answer another house if they don't know the one that was asked for.
@@ -34,7 +34,7 @@ def judged(address: str, places: list[Place], by: str, is_strict: bool) -> Candi
     is_strict
         Whether the server answers only what has all words, in whatever language.
     """
-    asked = Asked.of(address)
+    asked = AddressWords.of(address)
     ranked = []
     for place in places:
         quality = _quality(asked, place)
@@ -44,7 +44,7 @@ def judged(address: str, places: list[Place], by: str, is_strict: bool) -> Candi
     return likeliest(ranked)
 
 
-def _quality(asked: Asked, place: Place) -> Quality:
+def _quality(asked: AddressWords, place: AddressPlace) -> Quality:
     if place.quality not in ("house", "interpolated"):
         return place.quality
     words = set(asked.words)
@@ -56,7 +56,7 @@ def _quality(asked: Asked, place: Place) -> Quality:
     return place.quality if all(word in told for word in words if is_number(word)) else "street"
 
 
-def _unmatched(asked: Asked, place: Place, is_strict: bool) -> tuple[str, ...]:
+def _unmatched(asked: AddressWords, place: AddressPlace, is_strict: bool) -> tuple[str, ...]:
     """Return words of the address that speak against a place."""
     numbers = set(house_numbers(place.number))
     stated = [code for code in postcodes_in(asked.words) if code not in numbers]

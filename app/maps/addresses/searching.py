@@ -7,7 +7,9 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import NamedTuple
 
-from app.maps.addresses.asked import Asked, Number, Span, has_word, names_in, postcodes_in
+from app.maps.addresses.asked import (
+    AddressWords, Number, WordSpan, has_word, names_in, postcodes_in,
+)
 from app.maps.addresses.distances import metres_between
 from app.maps.addresses.geocoder import QUALITIES, Candidate, Candidates, Quality
 from app.maps.addresses.likeliest import Ranked, likeliest
@@ -47,13 +49,13 @@ class _Hit:
     """A street whose name stands in an address."""
 
     street: _Street
-    span: Span
+    span: WordSpan
     likeness: float  # of 100
 
 
 def search(file: Path, address: str) -> Candidates:
     """Return what an address may mean, the likeliest first; all of them are equally exact."""
-    asked = Asked.of(address)
+    asked = AddressWords.of(address)
     if not asked.letters:
         return ()
     with closing(reading(file)) as database:
@@ -63,7 +65,7 @@ def search(file: Path, address: str) -> Candidates:
 class _Search:
     """One address, looked for."""
 
-    def __init__(self, database: sqlite3.Connection, asked: Asked) -> None:
+    def __init__(self, database: sqlite3.Connection, asked: AddressWords) -> None:
         self._database = database
         self._asked = asked
 

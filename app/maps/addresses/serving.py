@@ -9,9 +9,9 @@ from app.maps.addresses import nominatim, pelias, photon
 from app.maps.addresses.geocoder import (
     GEOCODER, Candidates, GeocoderAnswerError, GeocoderError, GeocoderUnavailableError, Told,
 )
-from app.maps.addresses.places import Place, judged
+from app.maps.addresses.places import AddressPlace, judged
 from app.maps.addresses.server import GeocodingServer, ServerKind
-from app.maps.remote.asking import Asking, Question, ShouldStop
+from app.maps.remote.asking import RemoteCall, RemoteServer, ShouldStop
 from app.maps.remote.errors import SourceError
 from app.maps.remote.servers import Options, numbers_of, parted
 
@@ -40,7 +40,7 @@ class Adapter:
     """
 
     path_of: Callable[[str, GeocodingServer], str]
-    read: Callable[[bytes], list[Place]]
+    read: Callable[[bytes], list[AddressPlace]]
     is_strict: bool
 
 
@@ -65,7 +65,7 @@ class ServerGeocoder:
         self.name: str = kind
         self._adapter = ADAPTERS[kind]
         self._server = server
-        self._asking = Asking(server, GEOCODER, _refusal, turn)
+        self._asking = RemoteServer(server, GEOCODER, _refusal, turn)
 
     @property
     def scope(self) -> str:
@@ -80,7 +80,7 @@ class ServerGeocoder:
         # What the source fails with is stated by `GEOCODER`.
         self._asking.ask(questions, until, should_stop, told)
 
-    def _question(self, address: str) -> Question[Candidates]:
+    def _question(self, address: str) -> RemoteCall[Candidates]:
         def read(body: bytes) -> Candidates:
             try:
                 places = self._adapter.read(body)
@@ -91,8 +91,8 @@ class ServerGeocoder:
                     f"The geocoder answered nonsense: {where}: {first['msg']}.") from None
             return judged(address, places, self.name, self._adapter.is_strict)
 
-        return Question(self._adapter.path_of(address, self._server), read, MOST_BYTES,
-                        refused=_nothing_if_senseless)
+        return RemoteCall(self._adapter.path_of(address, self._server), read, MOST_BYTES,
+                          refused=_nothing_if_senseless)
 
     def close(self) -> None:
         """Let go of connections."""

@@ -24,21 +24,21 @@ class GeocoderSettingError(ValueError):
 
 
 @dataclass(frozen=True)
-class Extract:
+class AddressExtract:
     """A file of OpenStreetMap data."""
 
     path: Path
 
 
 @dataclass(frozen=True)
-class Server:
+class AddressServer:
     """A geocoding server."""
 
     kind: ServerKind
     server: GeocodingServer
 
 
-Source = Extract | Server
+Source = AddressExtract | AddressServer
 
 
 def read_setting(text: str) -> list[Source]:
@@ -55,12 +55,12 @@ def read_setting(text: str) -> list[Source]:
 def _source(stated: str) -> Source:
     word, _, rest = stated.partition(":")
     if word == EXTRACT and rest:
-        return Extract(Path(rest))
+        return AddressExtract(Path(rest))
     kind = next((kind for kind in SERVER_KINDS if kind == word), None)
     # What can't be read may hold a key, so it isn't repeated.
     if kind is None:
         raise GeocoderSettingError(f"it can't be read: {HOW_TO_WRITE}")
     try:
-        return Server(kind, read_server(rest))
+        return AddressServer(kind, read_server(rest))
     except ValueError as error:
         raise GeocoderSettingError(f"{kind}: {error}") from error

@@ -5,7 +5,7 @@ from typing import Annotated, Generic, Literal, TypeVar
 
 from pydantic import BaseModel, Field
 
-from app.maps.addresses.places import Place
+from app.maps.addresses.places import AddressPlace
 
 Longitude = Annotated[float, Field(ge=-180, le=180, allow_inf_nan=False)]
 Latitude = Annotated[float, Field(ge=-90, le=90, allow_inf_nan=False)]
@@ -23,7 +23,7 @@ class Address(BaseModel):
 Properties = TypeVar("Properties", bound=Address)
 
 
-class Point(BaseModel):
+class AddressPoint(BaseModel):
     """Where a place is, in GeoJSON."""
 
     type: Literal["Point"]
@@ -33,7 +33,7 @@ class Point(BaseModel):
 class Feature(BaseModel, Generic[Properties]):
     """A place in GeoJSON."""
 
-    geometry: Point
+    geometry: AddressPoint
     properties: Properties
 
 
@@ -45,7 +45,7 @@ class Features(BaseModel, Generic[Properties]):
 
 
 def read_features(body: bytes, kind: type[Properties],
-                  place: Callable[[float, float, Properties], Place]) -> list[Place]:
+                  place: Callable[[float, float, Properties], AddressPlace]) -> list[AddressPlace]:
     """Return the places of an answer in GeoJSON; raises pydantic's `ValidationError`."""
     answer = Features[kind].model_validate_json(body)  # type: ignore[valid-type]
     return [place(*feature.geometry.coordinates, feature.properties)

@@ -15,7 +15,7 @@ LONGEST_LOOK = 8
 
 
 @dataclass(frozen=True)
-class Span:
+class PlannedSpan:
     """From when until when something is planned."""
 
     begin: datetime
@@ -27,7 +27,7 @@ class Span:
 
 
 @dataclass(frozen=True)
-class Hours:
+class WeeklyHours:
     """A time of some days of the week; it ends on the next day where it ends before it begins."""
 
     days: frozenset[int] = ALL_DAYS  # 0 is Monday
@@ -50,23 +50,23 @@ class Period:
 
     begin: datetime = EVER
     end: datetime = NEVER_ENDS
-    hours: tuple[Hours, ...] = ()  # none: at all hours
+    hours: tuple[WeeklyHours, ...] = ()  # none: at all hours
 
-    def meets(self, span: Span) -> bool:
+    def meets(self, span: PlannedSpan) -> bool:
         """Tell whether it applies at any moment of a span."""
         begin, end = max(self.begin, span.begin), min(self.end, span.end)
         if begin > end:
             return False
         if not self.hours or end - begin >= LONGEST_LOOK * DAY:
             return True
-        both = Span(begin, end)
+        both = PlannedSpan(begin, end)
         first = begin.astimezone(UTC).date()
         days = [first + number * DAY for number in range(-2, (end - begin).days + 3)]
         return any(day.weekday() in hours.days and both.meets(*hours.on(day))
                    for hours in self.hours for day in days)
 
 
-    def within(self, span: Span) -> Iterator[tuple[datetime, datetime]]:
+    def within(self, span: PlannedSpan) -> Iterator[tuple[datetime, datetime]]:
         """Yield from when until when it applies in a span no longer than can be looked through."""
         if not self.hours:
             yield self.begin, self.end
@@ -83,7 +83,7 @@ class Period:
 ALWAYS = Period()
 
 
-def closed_times(periods: Iterable[Period], span: Span) -> list[tuple[datetime, datetime]]:
+def closed_times(periods: Iterable[Period], span: PlannedSpan) -> list[tuple[datetime, datetime]]:
     """Return from when until when a zone with these periods applies, as far as a span meets it.
 
     Ascending and apart. Beyond `LONGEST_LOOK` days the last goes on for ever.
@@ -91,7 +91,7 @@ def closed_times(periods: Iterable[Period], span: Span) -> list[tuple[datetime, 
     looked = min(span.end, span.begin + LONGEST_LOOK * DAY)
     found: list[tuple[datetime, datetime]] = []
     for begin, end in sorted([each for period in periods
-                              for each in period.within(Span(span.begin, looked))]):
+                              for each in period.within(PlannedSpan(span.begin, looked))]):
         if begin >= end or end <= span.begin:
             continue
         if found and begin <= found[-1][1]:
@@ -103,7 +103,7 @@ def closed_times(periods: Iterable[Period], span: Span) -> list[tuple[datetime, 
     return found
 
 
-def applies(periods: Iterable[Period], span: Span | None) -> bool:
+def applies(periods: Iterable[Period], span: PlannedSpan | None) -> bool:
     """Tell whether a zone with these periods applies at any moment of a span; None: whenever."""
     stated = tuple(periods)
     return span is None or not stated or any(period.meets(span) for period in stated)

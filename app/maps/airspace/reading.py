@@ -3,7 +3,7 @@
 from collections.abc import Iterable, Sequence
 
 from app.maps.airspace.applying import (
-    ALL_DAYS, ALWAYS, EVER, NEVER_ENDS, WEEKDAYS, Hours, Period, read_clock, read_instant,
+    ALL_DAYS, ALWAYS, EVER, NEVER_ENDS, WEEKDAYS, Period, WeeklyHours, read_clock, read_instant,
 )
 from app.maps.airspace.faults import Fault, Path, Reading
 from app.maps.airspace.kml import KmlError, kml_areas
@@ -71,13 +71,13 @@ def _period(stated: TimePeriod, path: Path, reading: Reading) -> Period:
         return ALWAYS
 
 
-def _hours(stated: DailyPeriod) -> Hours:
+def _hours(stated: DailyPeriod) -> WeeklyHours:
     days = ALL_DAYS if not stated.day or "ANY" in stated.day else frozenset(
         WEEKDAYS.index(day) for day in stated.day)
     begin = None if stated.start_time is None else read_clock(stated.start_time)
     end = None if stated.end_time is None else read_clock(stated.end_time)
     # Where daylight begins or ends it, from or to midnight.
-    return Hours(days, begin or Hours().begin, end)
+    return WeeklyHours(days, begin or WeeklyHours().begin, end)
 
 
 def _read_kml(text: str, reading: Reading) -> None:

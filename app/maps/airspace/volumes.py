@@ -7,7 +7,7 @@ from app.maps.airspace.faults import Path, Reading
 from app.maps.airspace.kml import KmlArea
 from app.maps.airspace.masks import Piece
 from app.maps.airspace.shapes import ShapeError, areas_of, circle_of
-from app.maps.airspace.zone import Limit, Reference, Unit, Volume
+from app.maps.airspace.zone import Reference, Unit, Volume, ZoneHeight
 from app.schemas.zones.ed269 import Projection, UasZone
 from app.schemas.zones.geojson import (
     Ed318Feature, GeometryCollection, Layer, MultiPolygon, PlainFeature, PlainProperties, Point,
@@ -93,8 +93,8 @@ def _layered(piece: Piece, layer: Layer | PlainProperties | None) -> Volume:
                          piece.is_far)
 
 
-def _limit(value: float | None, unit: Unit, reference: Reference | None) -> Limit | None:
+def _limit(value: float | None, unit: Unit, reference: Reference | None) -> ZoneHeight | None:
     """Return a limit; None if none is stated, nor what it counts from."""
     if value is None or reference is None or abs(value) >= UNLIMITED:
         return None
-    return Limit(value, unit, reference)
+    return ZoneHeight(value, unit, reference)

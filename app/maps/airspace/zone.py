@@ -23,7 +23,7 @@ LOWEST_GROUND_M, HIGHEST_GROUND_M = -440.0, 8850.0
 
 
 @dataclass(frozen=True)
-class Ground:
+class GroundHeights:
     """Between which heights above the sea the ground lies, in metres."""
 
     lowest: float = LOWEST_GROUND_M
@@ -31,7 +31,7 @@ class Ground:
 
 
 @dataclass(frozen=True)
-class Limit:
+class ZoneHeight:
     """A height, as it was published."""
 
     value: float
@@ -50,13 +50,13 @@ class Limit:
             return "the ground"
         return f"{self.value:g} {self.unit.lower()} {ABOVE[self.reference]}"
 
-    def least_above_ground(self, ground: Ground) -> float:
+    def least_above_ground(self, ground: GroundHeights) -> float:
         """Return how far it lies above the ground at least, in metres."""
         if self.reference == "AGL":
             return self.metres
         return self.metres - ground.highest - (GEOID_M if self.reference == "WGS84" else 0.0)
 
-    def most_above_ground(self, ground: Ground) -> float:
+    def most_above_ground(self, ground: GroundHeights) -> float:
         """Return how far it lies above the ground at most, in metres."""
         if self.reference == "AGL":
             return self.metres
@@ -68,15 +68,15 @@ class Volume:
     """An area from one height to another; no limit may be unknown, and then reaches all heights."""
 
     area: Polygon  # in degrees; longitudes go on beyond 180 where it lies across
-    lower: Limit | None = None
-    upper: Limit | None = None
+    lower: ZoneHeight | None = None
+    upper: ZoneHeight | None = None
     is_far: bool = False  # flights meet others of its zone before; only who is in it matters
 
-    def is_above(self, altitude: float, ground: Ground) -> bool:
+    def is_above(self, altitude: float, ground: GroundHeights) -> bool:
         """Tell whether it plainly lies above metres over the ground."""
         return self.lower is not None and self.lower.least_above_ground(ground) > altitude
 
-    def is_below(self, altitude: float, ground: Ground) -> bool:
+    def is_below(self, altitude: float, ground: GroundHeights) -> bool:
         """Tell whether it plainly lies below metres over the ground."""
         return self.upper is not None and self.upper.most_above_ground(ground) < altitude
 

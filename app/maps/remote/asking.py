@@ -105,7 +105,7 @@ class Server(Protocol):
 
 
 @dataclass(frozen=True)
-class Question(Generic[Answer]):
+class RemoteCall(Generic[Answer]):
     """One request of a server, and how to read what it answers.
 
     Parameters
@@ -148,7 +148,7 @@ class _Round:
             await asyncio.get_running_loop().create_future()
 
 
-class Asking:
+class RemoteServer:
     """Asks one server. Connections are kept; threads may share it.
 
     Parameters
@@ -174,7 +174,7 @@ class Asking:
         self._client: httpx.AsyncClient | None = None
         self._state = -math.inf, ""
 
-    def ask(self, questions: Sequence[Question[Answer]], until: float,
+    def ask(self, questions: Sequence[RemoteCall[Answer]], until: float,
             should_stop: ShouldStop = lambda: False,
             told: Callable[[int, Answer], None] = lambda place, answer: None) -> list[Answer]:
         """Return the answers to all questions, in their order.
@@ -192,7 +192,7 @@ class Asking:
         with self._breaker:
             return self._asked(questions, until, should_stop, told)
 
-    def _asked(self, questions: Sequence[Question[Answer]], until: float,
+    def _asked(self, questions: Sequence[RemoteCall[Answer]], until: float,
                should_stop: ShouldStop, told: Callable[[int, Answer], None]) -> list[Answer]:
         began = time.perf_counter()
         together, pending = self._sent(questions, until)
@@ -218,7 +218,7 @@ class Asking:
                 future.cancel()
         return [answers[place] for place in range(len(questions))]
 
-    def state(self, question: Question[str]) -> str:
+    def state(self, question: RemoteCall[str]) -> str:
         """Return what the server says of its map, for some time the same; empty if it doesn't."""
         asked, state = self._state
         if time.perf_counter() - asked > STATE_SECONDS:
@@ -229,7 +229,7 @@ class Asking:
             self._state = time.perf_counter(), state
         return state
 
-    def _sent(self, questions: Sequence[Question[Answer]],
+    def _sent(self, questions: Sequence[RemoteCall[Answer]],
               until: float) -> tuple[_Round, dict[Future[bytes | SourceError], int]]:
         """Have questions asked; return them by their places.
 
@@ -252,7 +252,7 @@ class Asking:
                                                  self._loop): place
                 for place, question in enumerate(questions)}
 
-    async def _outcome(self, question: Question[Answer], together: _Round,
+    async def _outcome(self, question: RemoteCall[Answer], together: _Round,
                        until: float) -> bytes | SourceError:
         """Return a question's answer, or why there is none."""
         async with together.gate:
@@ -261,7 +261,7 @@ class Asking:
             together.has_failed |= isinstance(outcome, Exception) and question.refused is None
             return outcome
 
-    async def _asked_again(self, question: Question[Answer], together: _Round,
+    async def _asked_again(self, question: RemoteCall[Answer], together: _Round,
                            until: float) -> bytes | SourceError:
         """Return a question's answer after some attempts, or why there is none."""
         left = max(until - time.perf_counter(), 0.0)
@@ -284,7 +284,7 @@ class Asking:
         stated = failure.pause if isinstance(failure, _TransientError) else 0.0
         return max(stated, self._backoff(state))
 
-    async def _attempted(self, question: Question[Answer], client: "httpx.AsyncClient") -> bytes:
+    async def _attempted(self, question: RemoteCall[Answer], client: "httpx.AsyncClient") -> bytes:
         import httpx
 
         if self._turn is not None:
@@ -297,7 +297,7 @@ class Asking:
         except httpx.RequestError as error:
             raise _TransientError(type(error).__name__) from error
 
-    async def _got(self, question: Question[Answer], client: "httpx.AsyncClient") -> bytes:
+    async def _got(self, question: RemoteCall[Answer], client: "httpx.AsyncClient") -> bytes:
         method = "GET" if question.body is None else "POST"
         headers = {} if question.body is None else {"Content-Type": "application/json"}
         async with client.stream(method, question.path, content=question.body,
@@ -341,7 +341,7 @@ def _has_failed(future: Future[bytes | SourceError]) -> bool:
     return future.cancelled() or isinstance(future.result(), SourceError)
 
 
-def _answer(question: Question[Answer], outcome: bytes | SourceError) -> Answer:
+def _answer(question: RemoteCall[Answer], outcome: bytes | SourceError) -> Answer:
     if isinstance(outcome, bytes):
         return question.read(outcome)
     if question.refused is not None:

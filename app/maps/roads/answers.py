@@ -83,7 +83,7 @@ def stated_refusal(model: type[Model], body: bytes) -> Model | None:
 
 
 @dataclass(frozen=True)
-class Part:
+class BlockAnswer:
     """What was answered to a block."""
 
     durations_s: FloatArray  # (origin, destination)
@@ -146,7 +146,7 @@ def metres_between(these: FloatArray, those: FloatArray) -> FloatArray:
     return metres
 
 
-def moved(count: int, parts: Iterable[tuple[Block, Part]]) -> BoolArray:
+def moved(count: int, parts: Iterable[tuple[Block, BlockAnswer]]) -> BoolArray:
     """Tell which of so many places lie on other spots on the road in some blocks than in others."""
     first, differs = np.full((count, 2), np.inf), np.zeros(count, bool)
     for block, part in parts:
@@ -168,7 +168,7 @@ class TableAnswer(Schema):
     sources: list[Snap | None]
     destinations: list[Snap | None]
 
-    def part(self, block: Block, places: FloatArray) -> Part:
+    def part(self, block: Block, places: FloatArray) -> BlockAnswer:
         """Return what was answered for places, a block's origins before its destinations.
 
         Raises
@@ -177,12 +177,12 @@ class TableAnswer(Schema):
             If that was asked of others.
         """
         rows = len(block.origins)
-        return Part(numbers(self.durations, block), numbers(self.distances, block),
-                    snapped_at(self.sources, places[:rows]),
-                    snapped_at(self.destinations, places[rows:]))
+        return BlockAnswer(numbers(self.durations, block), numbers(self.distances, block),
+                           snapped_at(self.sources, places[:rows]),
+                           snapped_at(self.destinations, places[rows:]))
 
 
-def joined(lon_lat: FloatArray, parts: Iterable[tuple[Block, Part]],
+def joined(lon_lat: FloatArray, parts: Iterable[tuple[Block, BlockAnswer]],
            spread_m: FloatArray | float = 0.0) -> RoadTable:
     """Return the table of all blocks' answers, nan where none answers.
 
@@ -240,7 +240,7 @@ def expanded(table: RoadTable, near: IntArray, count: int) -> RoadTable:
     return RoadTable(durations, distances, snapped, snap_m)
 
 
-def _plausible(block: Block, part: Part, spread_m: FloatArray) -> FloatArray:
+def _plausible(block: Block, part: BlockAnswer, spread_m: FloatArray) -> FloatArray:
     """Return a block's distances without noise below zero, if all can be right."""
     near_origin: BoolArray = np.isfinite(part.origins[:, 0])
     near_destination: BoolArray = np.isfinite(part.destinations[:, 0])

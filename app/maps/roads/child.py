@@ -37,7 +37,7 @@ MAX_TABLE, MAX_ROUTE = 100_000, 10_000
 """Places of a question to the child: we ask, so OSRM's own limits are in nobody's interest."""
 
 
-class Child:
+class RoutingChild:
     """Answers from one build, until it is stopped.
 
     Parameters

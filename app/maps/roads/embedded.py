@@ -7,7 +7,7 @@ from typing import TypeVar
 
 from app.maps.remote.asking import ShouldStop
 from app.maps.roads.building import Build
-from app.maps.roads.child import MAX_ROUTE, Child
+from app.maps.roads.child import MAX_ROUTE, RoutingChild
 from app.maps.roads.engine import (
     USUAL, Block, Driving, RoadRoute, RoadsUnavailableError, RoadTable,
 )
@@ -46,7 +46,7 @@ class EmbeddedRoads:
 
     def __init__(self, build: Build, tools: Tools) -> None:
         self._build = build
-        self.child = Child(tools.routed, build.data, THREADS)
+        self.child = RoutingChild(tools.routed, build.data, THREADS)
         self._lock = threading.Lock()
         self._starts = 0  # of the child last asked
         self._asked: list[Osrm] = []

@@ -13,7 +13,7 @@ from app.maps.roads.embedded import EmbeddedRoads
 from app.maps.roads.engine import RoadEngine
 from app.maps.roads.roads import NO_ROADS, Roads
 from app.maps.roads.servers import server_engine
-from app.maps.roads.setting import Extract, Server, SettingError, Source, read_setting
+from app.maps.roads.setting import Extract, RoadsServer, SettingError, Source, read_setting
 from app.maps.roads.tools import ToolsMissingError, find_tools
 from app.serving.settings import Settings
 
@@ -50,7 +50,7 @@ def opened_roads(settings: Settings) -> Iterator[Roads]:
                    else _server(source, profile) for profile, source in sources.items()},
                   TableCache(settings.data_dir / CACHE, settings.roads_cache_bytes),
                   {profile: source.url for profile, source in sources.items()
-                   if isinstance(source, Server)},
+                   if isinstance(source, RoadsServer)},
                   tuple(engine.start for engine in extracts.values()), addresses=addresses,
                   zones=zones)
     try:
@@ -71,7 +71,7 @@ def _embedded(source: Extract) -> EmbeddedRoads:
         raise SettingError(str(error)) from error
 
 
-def _server(source: Server, profile: str) -> RoadEngine:
+def _server(source: RoadsServer, profile: str) -> RoadEngine:
     try:
         return server_engine(source.kind, source.url, profile)
     except ValueError as error:

@@ -6,8 +6,10 @@ from functools import partial
 from itertools import pairwise
 from typing import Any
 
-from app.maps.remote.asking import Asking, Question, ShouldStop
-from app.maps.roads.answers import Part, Schema, TableAnswer, blocks, joined, read, stated_refusal
+from app.maps.remote.asking import RemoteCall, RemoteServer, ShouldStop
+from app.maps.roads.answers import (
+    BlockAnswer, Schema, TableAnswer, blocks, joined, read, stated_refusal,
+)
 from app.maps.roads.engine import (
     ROADS, USUAL, Block, Driving, NoWayError, RoadRoute, RoadsAnswerError, RoadsError, RoadTable,
     whole,
@@ -65,7 +67,7 @@ class OpenRouteService:
     def __init__(self, server: RoadServer, profile: str = "driving-car") -> None:
         self._server = server
         self._profile = profile
-        self._asking = Asking(server, ROADS, _refusal)
+        self._asking = RemoteServer(server, ROADS, _refusal)
 
     def build(self) -> str:
         """Return nothing: only answers to other questions tell of the map."""
@@ -83,14 +85,14 @@ class OpenRouteService:
         answers = self._asking.ask(questions, until, should_stop)
         return joined(lon_lat, zip(parts, answers, strict=True))
 
-    def _question(self, lon_lat: FloatArray, block: Block) -> Question[Part]:
+    def _question(self, lon_lat: FloatArray, block: Block) -> RemoteCall[BlockAnswer]:
         rows, columns = len(block.origins), len(block.destinations)
         places = lon_lat[[*block.origins, *block.destinations]]
         body = _json(locations=places.tolist(), sources=_listed(range(rows)),
                      destinations=_listed(range(rows, rows + columns)),
                      metrics=["duration", "distance"], units="m")
         most = rows * columns * BYTES_PER_LEG + len(places) * BYTES_PER_PLACE + BYTES_BESIDES
-        return Question(f"/v2/matrix/{self._profile}", partial(_part, block, places), most, body)
+        return RemoteCall(f"/v2/matrix/{self._profile}", partial(_part, block, places), most, body)
 
     def route(self, lon_lat: FloatArray, until: float, driving: Driving = USUAL) -> RoadRoute:
         """Return the drive along points."""
@@ -101,8 +103,8 @@ class OpenRouteService:
             # Tables take places however far from a road they are, and routes only if told so.
             body = _json(coordinates=points, radiuses=[-1] * len(points), units="m",
                          geometry_simplify=False)
-            questions.append(Question(f"/v2/directions/{self._profile}/json",
-                                      partial(_route, len(points)), BYTES_PER_ROUTE, body))
+            questions.append(RemoteCall(f"/v2/directions/{self._profile}/json",
+                                        partial(_route, len(points)), BYTES_PER_ROUTE, body))
         return joined_route(self._asking.ask(questions, until))
 
     def close(self) -> None:
@@ -118,7 +120,7 @@ def _listed(places: range) -> list[str]:
     return [str(place) for place in places]
 
 
-def _part(block: Block, places: FloatArray, body: bytes) -> Part:
+def _part(block: Block, places: FloatArray, body: bytes) -> BlockAnswer:
     return read(TableAnswer, body).part(block, places)
 
 

@@ -9,14 +9,14 @@ from urllib.parse import quote
 import numpy as np
 import polyline
 
-from app.maps.remote.asking import Asking, Question, ShouldStop
-from app.maps.roads.answers import Part, Schema, blocks, joined, moved, read, stated_refusal
+from app.maps.remote.asking import RemoteCall, RemoteServer, ShouldStop
+from app.maps.roads.answers import BlockAnswer, Schema, blocks, joined, moved, read, stated_refusal
 from app.maps.roads.engine import (
     ROADS, USUAL, Block, Driving, NoWayError, RoadRoute, RoadsAnswerError, RoadsError,
     RoadTable, UnknownDrivingError, whole,
 )
 from app.maps.roads.lines import DECIMALS, decoded, joined_route, route_of, stretches
-from app.maps.roads.osrm_tables import BYTES_BESIDES, Asked, TableForm, in_json
+from app.maps.roads.osrm_tables import BYTES_BESIDES, AskedBlock, TableForm, in_json
 from app.maps.roads.server import RoadServer
 from app.schemas.fields import Avoided
 from model.problem import BoolArray, FloatArray
@@ -86,11 +86,11 @@ class Osrm:
         self._form = form
         self._profile = quote(profile, safe="")
         self._unlimited = False
-        self._asking = Asking(server, ROADS, _refusal)
+        self._asking = RemoteServer(server, ROADS, _refusal)
 
     def build(self) -> str:
         """Return what the server calls the state of its map; most don't say."""
-        return self._asking.state(Question(
+        return self._asking.state(RemoteCall(
             f"/nearest/v1/{self._profile}/0,0?generate_hints=false",
             lambda body: read(_Nearest, body).data_version, BYTES_BESIDES))
 
@@ -129,7 +129,7 @@ class Osrm:
         return joined(lon_lat, _by_block(answers))
 
     def _cut(self, lon_lat: FloatArray, wanted: Sequence[Block],
-             driving: Driving) -> list[Asked]:
+             driving: Driving) -> list[AskedBlock]:
         """Return how to ask for blocks that the server takes."""
         most = self._server.max_places
         while True:
@@ -142,16 +142,16 @@ class Osrm:
             most = -(-largest // 2)
 
     def _asked(self, lon_lat: FloatArray, block: Block, driving: Driving,
-               company: Sequence[int] = ()) -> Asked:
+               company: Sequence[int] = ()) -> AskedBlock:
         named = np.unique([*block.origins, *block.destinations, *company])
         origins, destinations = (np.searchsorted(named, places)
                                  for places in (block.origins, block.destinations))
         # OSRM makes no table of one place.
         named = named if len(named) > 1 else named.repeat(2)
         places = lon_lat[named]
-        return Asked(block, self._path("table", places),
-                     f"&generate_hints=false{self._radii(len(places))}"
-                     f"{_stated(driving.among(named))}", places, origins, destinations)
+        return AskedBlock(block, self._path("table", places),
+                          f"&generate_hints=false{self._radii(len(places))}"
+                          f"{_stated(driving.among(named))}", places, origins, destinations)
 
     def _radii(self, count: int) -> str:
         """Return that each place is to be put on the nearest road however far that is."""
@@ -172,7 +172,7 @@ class Osrm:
             path = (f"{self._path('route', points)}?overview=full&geometries=polyline6"
                     "&annotations=distance&continue_straight=false&generate_hints=false"
                     f"{self._radii(len(points))}{_stated(driving.among(stretch))}")
-            questions.append(Question(path, partial(_route, len(points)), BYTES_PER_ROUTE))
+            questions.append(RemoteCall(path, partial(_route, len(points)), BYTES_PER_ROUTE))
         return joined_route(self._asking.ask(questions, until))
 
     def close(self) -> None:
@@ -201,7 +201,7 @@ def _company(block: Block, unsure: BoolArray) -> list[int]:
     return chosen[spread].tolist()
 
 
-def _by_block(answers: dict[Asked, Part]) -> list[tuple[Block, Part]]:
+def _by_block(answers: dict[AskedBlock, BlockAnswer]) -> list[tuple[Block, BlockAnswer]]:
     return [(asked.block, part) for asked, part in answers.items()]
 
 

@@ -18,9 +18,9 @@ import numpy.typing as npt
 from flatbuffers import encode, number_types, packer
 from flatbuffers.table import Table
 
-from app.maps.remote.asking import Asking, Question, ShouldStop
+from app.maps.remote.asking import RemoteCall, RemoteServer, ShouldStop
 from app.maps.roads.answers import (
-    Numbers, Part, Schema, Snap, TableAnswer, metres_between, numbers, read, snapped_at,
+    BlockAnswer, Numbers, Schema, Snap, TableAnswer, metres_between, numbers, read, snapped_at,
 )
 from app.maps.roads.engine import Block, RoadsAnswerError
 from model.problem import BoolArray, FloatArray, IntArray
@@ -44,7 +44,7 @@ _BOTH = "duration,distance"
 
 
 @dataclass(frozen=True, eq=False)
-class Asked:
+class AskedBlock:
     """A block of a table, and how it is asked for."""
 
     block: Block
@@ -66,7 +66,7 @@ class Asked:
         return self.address(self.origins, self.destinations)
 
 
-TableForm = Callable[[Asking, Sequence[Asked], float, ShouldStop], list[Part]]
+TableForm = Callable[[RemoteServer, Sequence[AskedBlock], float, ShouldStop], list[BlockAnswer]]
 """Asks for blocks of tables; raises `RoadsError` if one isn't answered whole and in time."""
 
 
@@ -85,12 +85,12 @@ class _Spots(Schema):
     destinations: list[Snap | None]
 
 
-def quickest(asking: Asking, asked: Sequence[Asked], until: float,
-             should_stop: ShouldStop) -> list[Part]:
+def quickest(asking: RemoteServer, asked: Sequence[AskedBlock], until: float,
+             should_stop: ShouldStop) -> list[BlockAnswer]:
     """Ask for large blocks as numbers of 32 bits, and for others as text."""
     is_large = {one: len(one.origins) * len(one.destinations) >= LEGS_PER_PLACE * len(one.places)
                 for one in asked}
-    parts: dict[Asked, Part] = {}
+    parts: dict[AskedBlock, BlockAnswer] = {}
     for form, chosen in ((in_json, False), (in_floats, True)):
         some = [one for one in asked if is_large[one] == chosen]
         if some:
@@ -98,17 +98,17 @@ def quickest(asking: Asking, asked: Sequence[Asked], until: float,
     return [parts[one] for one in asked]
 
 
-def in_json(asking: Asking, asked: Sequence[Asked], until: float,
-            should_stop: ShouldStop) -> list[Part]:
+def in_json(asking: RemoteServer, asked: Sequence[AskedBlock], until: float,
+            should_stop: ShouldStop) -> list[BlockAnswer]:
     """Ask for blocks as text."""
-    return asking.ask([Question(one.whole, partial(_part, one), _most_bytes(one))
+    return asking.ask([RemoteCall(one.whole, partial(_part, one), _most_bytes(one))
                        for one in asked], until, should_stop)
 
 
-def in_floats(asking: Asking, asked: Sequence[Asked], until: float,
-              should_stop: ShouldStop) -> list[Part]:
+def in_floats(asking: RemoteServer, asked: Sequence[AskedBlock], until: float,
+              should_stop: ShouldStop) -> list[BlockAnswer]:
     """Ask for blocks as numbers of 32 bits, and in JSON for what these leave open."""
-    questions: list[Question[Any]] = [*map(_floats, asked), *map(_spots, asked)]
+    questions: list[RemoteCall[Any]] = [*map(_floats, asked), *map(_spots, asked)]
     answers = asking.ask(questions, until, should_stop)
     tables, spots = answers[:len(asked)], answers[len(asked):]
     parts = [_joined(one, at, table)
@@ -117,29 +117,29 @@ def in_floats(asking: Asking, asked: Sequence[Asked], until: float,
     return parts
 
 
-def _part(asked: Asked, body: bytes) -> Part:
+def _part(asked: AskedBlock, body: bytes) -> BlockAnswer:
     places = asked.places[[*asked.origins, *asked.destinations]]
     return read(_Table, body).part(asked.block, places)
 
 
-def _most_bytes(asked: Asked) -> int:
+def _most_bytes(asked: AskedBlock) -> int:
     rows, columns = len(asked.origins), len(asked.destinations)
     return rows * columns * BYTES_PER_LEG + (rows + columns) * BYTES_PER_PLACE + BYTES_BESIDES
 
 
-def _spots(asked: Asked) -> Question[FloatArray]:
+def _spots(asked: AskedBlock) -> RemoteCall[FloatArray]:
     """Return how to ask where all places lie on the road: with as few legs as can be."""
     everywhere = np.arange(len(asked.places))
-    return Question(asked.address(everywhere[:1], everywhere, "duration"),
-                    lambda body: snapped_at(read(_Spots, body).destinations, asked.places),
-                    len(everywhere) * (BYTES_PER_LEG + BYTES_PER_PLACE) + BYTES_BESIDES)
+    return RemoteCall(asked.address(everywhere[:1], everywhere, "duration"),
+                      lambda body: snapped_at(read(_Spots, body).destinations, asked.places),
+                      len(everywhere) * (BYTES_PER_LEG + BYTES_PER_PLACE) + BYTES_BESIDES)
 
 
-def _floats(asked: Asked) -> Question[tuple[FloatArray, FloatArray]]:
+def _floats(asked: AskedBlock) -> RemoteCall[tuple[FloatArray, FloatArray]]:
     rows, columns = len(asked.origins), len(asked.destinations)
     address = asked.address(asked.origins, asked.destinations, form=".flatbuffers")
-    return Question(f"{address}&skip_waypoints=true", partial(floats, rows, columns),
-                    2 * rows * columns * np.float32().itemsize + BYTES_BESIDES)
+    return RemoteCall(f"{address}&skip_waypoints=true", partial(floats, rows, columns),
+                      2 * rows * columns * np.float32().itemsize + BYTES_BESIDES)
 
 
 def floats(rows: int, columns: int, body: bytes) -> tuple[FloatArray, FloatArray]:
@@ -173,9 +173,10 @@ def _tenths(single: npt.NDArray[np.float32], rows: int, columns: int) -> FloatAr
     return np.round(tenths, 1, out=tenths)
 
 
-def _joined(asked: Asked, spots: FloatArray, table: tuple[FloatArray, FloatArray]) -> Part:
+def _joined(asked: AskedBlock, spots: FloatArray,
+            table: tuple[FloatArray, FloatArray]) -> BlockAnswer:
     """Return a part in which there is no way of no length between spots that are apart."""
-    part = Part(*table, spots[asked.origins], spots[asked.destinations])
+    part = BlockAnswer(*table, spots[asked.origins], spots[asked.destinations])
     rows, columns = np.nonzero((part.durations_s == 0) & (part.distances_m == 0))
     metres = metres_between(part.origins[rows], part.destinations[columns])
     # Not finite where a place is on no road.
@@ -185,7 +186,7 @@ def _joined(asked: Asked, spots: FloatArray, table: tuple[FloatArray, FloatArray
     return part
 
 
-def _settle(asking: Asking, parts: Sequence[tuple[Asked, Part]], until: float,
+def _settle(asking: RemoteServer, parts: Sequence[tuple[AskedBlock, BlockAnswer]], until: float,
             should_stop: ShouldStop) -> None:
     """Ask in JSON for legs that numbers of 32 bits don't tell. In place."""
     doubts = [(asked, part, doubtful) for asked, part in parts
@@ -202,7 +203,7 @@ def _settle(asking: Asking, parts: Sequence[tuple[Asked, Part]], until: float,
             legs[some] = np.where(here, told, legs[some])
 
 
-def _doubtful(asked: Asked, part: Part) -> BoolArray:
+def _doubtful(asked: AskedBlock, part: BlockAnswer) -> BoolArray:
     """Tell which legs are told by JSON alone, (origin, destination)."""
     own = asked.origins[:, None] == asked.destinations
     nothing = (part.durations_s == 0) & (part.distances_m == 0) & ~own
@@ -214,14 +215,14 @@ def _any_of(doubtful: BoolArray) -> IntArray:
     return np.flatnonzero(doubtful.any(axis=1))
 
 
-def _some_legs(asked: Asked, some: Block) -> Question[tuple[FloatArray, FloatArray]]:
+def _some_legs(asked: AskedBlock, some: Block) -> RemoteCall[tuple[FloatArray, FloatArray]]:
     def told(body: bytes) -> tuple[FloatArray, FloatArray]:
         answer = read(_Legs, body)
         return numbers(answer.durations, some), numbers(answer.distances, some)
 
     address = asked.address(asked.origins[some.origins], asked.destinations[some.destinations])
-    return Question(f"{address}&skip_waypoints=true", told,
-                    len(some.origins) * len(some.destinations) * BYTES_PER_LEG + BYTES_BESIDES)
+    return RemoteCall(f"{address}&skip_waypoints=true", told,
+                      len(some.origins) * len(some.destinations) * BYTES_PER_LEG + BYTES_BESIDES)
 
 
 def _listed(places: IntArray) -> str:

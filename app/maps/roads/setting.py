@@ -36,14 +36,14 @@ class Extract:
 
 
 @dataclass(frozen=True)
-class Server:
+class RoadsServer:
     """A server of roads and its address."""
 
     kind: ServerKind
     url: str
 
 
-Source = Extract | Server
+Source = Extract | RoadsServer
 
 
 def read_setting(text: str) -> dict[str, Source]:
@@ -72,7 +72,7 @@ def _source(profile: str, stated: str) -> Source:
         if not re.match(r"https?://[^/]", rest):
             raise SettingError(f"{profile} has no address behind {kind}: write one such as "
                                f"{kind}:http://localhost:5000")
-        return Server(kind, rest)
+        return RoadsServer(kind, rest)
     if re.match(r"https?$", word):
         raise SettingError(f"{profile} has an address and no word that says what answers there: "
                            f"write {' or '.join(f'{kind}:' for kind in SERVER_KINDS)} before it")

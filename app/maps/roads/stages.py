@@ -39,7 +39,7 @@ def run_tool(command: Sequence[str | Path], environment: Mapping[str, str],
         If it fails.
     """
     lines: deque[str] = deque(maxlen=KEPT_LINES)
-    progress = Progress(stages)
+    progress = StageProgress(stages)
     with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
                           errors="replace", env=dict(environment)) as process:
         try:
@@ -54,7 +54,7 @@ def run_tool(command: Sequence[str | Path], environment: Mapping[str, str],
     return list(lines)
 
 
-class Progress:
+class StageProgress:
     """Which share of a tool's work is over."""
 
     def __init__(self, stages: Sequence[tuple[str, float]]) -> None:

@@ -14,10 +14,10 @@ from urllib.parse import urlencode
 import numpy as np
 from pydantic import RootModel
 
-from app.maps.remote.asking import Asking, Question, ShouldStop
+from app.maps.remote.asking import RemoteCall, RemoteServer, ShouldStop
 from app.maps.remote.errors import SourceError
 from app.maps.roads.answers import (
-    Numbers, Part, Schema, among, blocks, expanded, joined, metres_between, numbers, read,
+    BlockAnswer, Numbers, Schema, among, blocks, expanded, joined, metres_between, numbers, read,
     stated_refusal,
 )
 from app.maps.roads.engine import (
@@ -111,11 +111,11 @@ class Valhalla:
         self._server = server
         self._stated = f"?{urlencode(parameters)}" if parameters else ""
         self._costing = costing
-        self._asking = Asking(server, ROADS, _refusal)
+        self._asking = RemoteServer(server, ROADS, _refusal)
 
     def build(self) -> str:
         """Return when the server's map was made."""
-        return self._asking.state(Question(
+        return self._asking.state(RemoteCall(
             f"/status{self._stated}", lambda body: str(read(_Status, body).tileset_last_modified),
             BYTES_BESIDES))
 
@@ -140,7 +140,7 @@ class Valhalla:
         """Return where places lie on the road, and how far from there drives may begin or end."""
         cuts = [lon_lat[begin:begin + LOCATED_AT_ONCE]
                 for begin in range(0, len(lon_lat), LOCATED_AT_ONCE)]
-        questions = [Question(
+        questions = [RemoteCall(
             f"/locate{self._stated}", partial(_spots, places),
             len(places) * BYTES_PER_SPOT + BYTES_BESIDES,
             self._body(locations=_locations(places), verbose=False)) for places in cuts]
@@ -148,13 +148,14 @@ class Valhalla:
         return (np.concatenate([np.empty((0, 2)), *(spots for spots, _ in found)]),
                 np.concatenate([np.empty(0), *(spread for _, spread in found)]))
 
-    def _question(self, places: FloatArray, spots: FloatArray, block: Block) -> Question[Part]:
+    def _question(self, places: FloatArray, spots: FloatArray,
+                  block: Block) -> RemoteCall[BlockAnswer]:
         body = self._body(sources=_locations(places[block.origins]),
                           targets=_locations(places[block.destinations]),
                           units="kilometers", verbose=False)
         most = len(block.origins) * len(block.destinations) * BYTES_PER_LEG + BYTES_BESIDES
-        return Question(f"/sources_to_targets{self._stated}", partial(_part, block, spots), most,
-                        body, partial(_unconnected, block, spots))
+        return RemoteCall(f"/sources_to_targets{self._stated}", partial(_part, block, spots), most,
+                          body, partial(_unconnected, block, spots))
 
     def route(self, lon_lat: FloatArray, until: float, driving: Driving = USUAL) -> RoadRoute:
         """Return the drive along points."""
@@ -164,8 +165,8 @@ class Valhalla:
             points = lon_lat[stretch]
             body = self._body(locations=_locations(points), units="kilometers",
                               directions_type="none", shape_format="polyline6")
-            questions.append(Question(f"/route{self._stated}", partial(_route, len(points)),
-                                      BYTES_PER_ROUTE, body))
+            questions.append(RemoteCall(f"/route{self._stated}", partial(_route, len(points)),
+                                        BYTES_PER_ROUTE, body))
         return joined_route(self._asking.ask(questions, until))
 
     def _body(self, **stated: Any) -> bytes:
@@ -194,13 +195,13 @@ def _spots(places: FloatArray, body: bytes) -> tuple[FloatArray, FloatArray]:
     return snapped, spread_m
 
 
-def _part(block: Block, spots: FloatArray, body: bytes) -> Part:
+def _part(block: Block, spots: FloatArray, body: bytes) -> BlockAnswer:
     table = read(_Table, body).sources_to_targets
     durations, distances = numbers(table.durations, block), numbers(table.distances, block)
     return _with_spots(block, spots, durations, METRES * distances)
 
 
-def _unconnected(block: Block, spots: FloatArray, refusal: SourceError) -> Part:
+def _unconnected(block: Block, spots: FloatArray, refusal: SourceError) -> BlockAnswer:
     """Return a block without any way, if that is why it is refused."""
     if not isinstance(refusal, NoWayError):
         raise refusal
@@ -209,11 +210,11 @@ def _unconnected(block: Block, spots: FloatArray, refusal: SourceError) -> Part:
 
 
 def _with_spots(block: Block, spots: FloatArray, durations: FloatArray,
-                distances: FloatArray) -> Part:
+                distances: FloatArray) -> BlockAnswer:
     # In some one-way streets Valhalla drives around the block to get from a place to itself.
     own = block.origins[:, None] == block.destinations
     durations[own] = distances[own] = 0.0
-    return Part(durations, distances, spots[block.origins], spots[block.destinations])
+    return BlockAnswer(durations, distances, spots[block.origins], spots[block.destinations])
 
 
 def _route(points: int, body: bytes) -> RoadRoute:

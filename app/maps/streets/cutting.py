@@ -16,8 +16,8 @@ from typing import NamedTuple
 import numpy as np
 import shapely
 
-from app.maps.streets.kinds import KINDS, LEAST_ZOOM, MOST_ZOOM, Kind
-from app.maps.streets.reading import Named
+from app.maps.streets.kinds import KINDS, LEAST_ZOOM, MOST_ZOOM, StreetKind
+from app.maps.streets.reading import NamedLines
 from app.maps.streets.sea import Shapes
 from model.problem import FloatArray, IntArray
 
@@ -38,7 +38,7 @@ LEAST_NAMED = 16 * EXTENT // PIXELS
 """Steps: ways that are shorter have no room for a name, even where the last zoom is enlarged."""
 
 
-class Piece(NamedTuple):
+class TilePiece(NamedTuple):
     """What a tile shows of a kind."""
 
     zoom: int
@@ -47,7 +47,7 @@ class Piece(NamedTuple):
     lines: list[list[int]]
 
 
-def pieces(shapes: Mapping[str, Shapes]) -> Iterator[tuple[Kind, Piece]]:
+def pieces(shapes: Mapping[str, Shapes]) -> Iterator[tuple[StreetKind, TilePiece]]:
     """Yield what each tile shows of each kind, in the order of painting."""
     for kind in KINDS:
         if kind.name in shapes:
@@ -56,7 +56,7 @@ def pieces(shapes: Mapping[str, Shapes]) -> Iterator[tuple[Kind, Piece]]:
                     yield kind, piece
 
 
-def named_pieces(named: Mapping[str, Named]) -> Iterator[tuple[Kind, str, Piece]]:
+def named_pieces(named: Mapping[str, NamedLines]) -> Iterator[tuple[StreetKind, str, TilePiece]]:
     """Yield what each tile shows of each line that has a name: its kind, its name, and itself."""
     for kind in KINDS:
         if kind.name in named and kind.names_from is not None:
@@ -68,10 +68,10 @@ def named_pieces(named: Mapping[str, Named]) -> Iterator[tuple[Kind, str, Piece]
                 for x, y, shapes, which in _quartered(simple[long], long, zoom, (0, 0), 0):
                     for shape, name in zip(shapes, which.tolist(), strict=True):
                         if ways := _lines(np.array([shape]), False, (x, y), zoom):
-                            yield kind, names[name], Piece(zoom, x, y, ways)
+                            yield kind, names[name], TilePiece(zoom, x, y, ways)
 
 
-def _cut(shapes: Shapes, kind: Kind, zoom: int) -> Iterator[Piece]:
+def _cut(shapes: Shapes, kind: StreetKind, zoom: int) -> Iterator[TilePiece]:
     """Yield what the tiles of a zoom show of shapes of one kind."""
     step = 1 / (EXTENT << zoom)
     is_last = zoom == MOST_ZOOM
@@ -81,7 +81,7 @@ def _cut(shapes: Shapes, kind: Kind, zoom: int) -> Iterator[Piece]:
         simple = simple[shapely.area(simple) >= SMALLEST_AREA * step**2]
     for x, y, within, _ in _quartered(simple, np.arange(len(simple)), zoom, (0, 0), 0):
         if lines := _lines(within, kind.is_area, (x, y), zoom):
-            yield Piece(zoom, x, y, lines)
+            yield TilePiece(zoom, x, y, lines)
 
 
 def _quartered(shapes: Shapes, which: IntArray, zoom: int, tile: tuple[int, int],

@@ -14,7 +14,7 @@ LEAST_ZOOM = 5
 
 
 @dataclass(frozen=True)
-class Kind:
+class StreetKind:
     """What looks the same."""
 
     name: str
@@ -23,24 +23,24 @@ class Kind:
     names_from: int | None = None  # from which zoom its lines are named; None: never
 
 
-SEA = Kind("sea", LEAST_ZOOM, is_area=True)
+SEA = StreetKind("sea", LEAST_ZOOM, is_area=True)
 KINDS = (
     SEA,
-    Kind("green", 9, is_area=True),
-    Kind("sand", 11, is_area=True),
-    Kind("water", LEAST_ZOOM, is_area=True),
-    Kind("river", 9),
-    Kind("stream", 12),
-    Kind("square", 14, is_area=True),
-    Kind("building", 14, is_area=True),
-    Kind("path", 14, names_from=14),
-    Kind("service", 13, names_from=14),
-    Kind("street", 12, names_from=14),
-    Kind("main", 9, names_from=13),
-    Kind("primary", 7, names_from=12),
-    Kind("motorway", LEAST_ZOOM, names_from=12),
-    Kind("tram", 13),
-    Kind("rail", 8),
+    StreetKind("green", 9, is_area=True),
+    StreetKind("sand", 11, is_area=True),
+    StreetKind("water", LEAST_ZOOM, is_area=True),
+    StreetKind("river", 9),
+    StreetKind("stream", 12),
+    StreetKind("square", 14, is_area=True),
+    StreetKind("building", 14, is_area=True),
+    StreetKind("path", 14, names_from=14),
+    StreetKind("service", 13, names_from=14),
+    StreetKind("street", 12, names_from=14),
+    StreetKind("main", 9, names_from=13),
+    StreetKind("primary", 7, names_from=12),
+    StreetKind("motorway", LEAST_ZOOM, names_from=12),
+    StreetKind("tram", 13),
+    StreetKind("rail", 8),
 )
 """In the order in which they are painted."""
 

@@ -17,7 +17,7 @@ from app.maps.streets.sea import Box, Shapes, sea_of
 COAST = "coastline"
 
 
-class Named(NamedTuple):
+class NamedLines(NamedTuple):
     """Lines with a name, one or more for each name."""
 
     names: Sequence[str]
@@ -34,11 +34,11 @@ class Drawing:
 
     bounds: Box
     shapes: Mapping[str, Shapes]  # by kind, in the map's own coordinates (see `mercator`)
-    named: Mapping[str, Named]  # by kind, those of them that have a name
+    named: Mapping[str, NamedLines]  # by kind, those of them that have a name
 
 
 @dataclass(frozen=True)
-class Found:
+class DrawnShapes:
     """What of an extract is drawn, by kind: shapes in degrees as WKB, and what each is called."""
 
     shapes: dict[str, list[bytes]]
@@ -77,7 +77,7 @@ def read_drawing(extract: Path) -> Drawing:
         for kind in KINDS if kind.names_from is not None and any(found.names.get(kind.name, ()))})
 
 
-def _joined(lines: Shapes, names: Sequence[str]) -> Named:
+def _joined(lines: Shapes, names: Sequence[str]) -> NamedLines:
     """Return the lines that have a name, joined where the same goes on: ways end at junctions."""
     ways = defaultdict(list)
     for line, name in zip(lines, names, strict=True):
@@ -86,7 +86,7 @@ def _joined(lines: Shapes, names: Sequence[str]) -> Named:
     whole = shapely.line_merge([shapely.MultiLineString(parts) for parts in ways.values()])
     parts, of = shapely.get_parts(whole, return_index=True)
     known = list(ways)
-    return Named([known[name] for name in of], parts)
+    return NamedLines([known[name] for name in of], parts)
 
 
 def _bounds(osmium: Any, extract: Path) -> Box:
@@ -101,10 +101,10 @@ def _bounds(osmium: Any, extract: Path) -> Box:
     return (box.bottom_left.lon, box.bottom_left.lat, box.top_right.lon, box.top_right.lat)
 
 
-def _found(osmium: Any, extract: Path) -> Found:
+def _found(osmium: Any, extract: Path) -> DrawnShapes:
     """Return the shapes of each kind, and of coastlines."""
     wkb = osmium.geom.WKBFactory()
-    found = Found(defaultdict(list), defaultdict(list))
+    found = DrawnShapes(defaultdict(list), defaultdict(list))
     drawn = osmium.osm.WAY | osmium.osm.AREA
     for thing in (osmium.FileProcessor(str(extract)).with_locations().with_areas()
                   .with_filter(osmium.filter.EntityFilter(drawn))

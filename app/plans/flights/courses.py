@@ -8,7 +8,7 @@ import numpy as np
 from shapely import LineString, Polygon, STRtree
 
 from app.plans.flights.flight import Flight, Place, Ring, WayPoint
-from app.plans.flights.flown import Flown, flown_in
+from app.plans.flights.flown import PlannedFlight, flown_in
 from app.requests.conversion.energy import climb_duration
 from app.requests.conversion.ground import Detours, Ground
 from app.requests.conversion.places import PlacedRequest
@@ -92,7 +92,8 @@ class _Zones:
 class _Courses:
     """Works out the ways of some flights."""
 
-    def __init__(self, placed: PlacedRequest, ground: Ground, flights: Sequence[Flown]) -> None:
+    def __init__(self, placed: PlacedRequest, ground: Ground,
+                 flights: Sequence[PlannedFlight]) -> None:
         flown = sorted({node for each in flights for node in each.nodes})
         self._request: PlanRequest = placed.request
         self._places = placed.places
@@ -107,7 +108,7 @@ class _Courses:
         day = self._request.day
         self._plan_start: datetime | None = None if day is None else day.start.astimezone(UTC)
 
-    def flight(self, flown: Flown) -> Flight:
+    def flight(self, flown: PlannedFlight) -> Flight:
         """Return a flight with its way."""
         altitude, energy = flown.flyer.altitude, flown.flyer.energy
         way_points = tuple(self._way_points(flown))
@@ -118,7 +119,7 @@ class _Courses:
             recovery_time=flown.recovery_time, zones=self._closed_to(flown).near(line),
             plan_start=self._plan_start, buffer=self._request.airspace.buffer)
 
-    def _closed_to(self, flown: Flown) -> _Zones:
+    def _closed_to(self, flown: PlannedFlight) -> _Zones:
         """Return the zones but those with hours that a flight leads to while they are open."""
         altitude = flown.flyer.altitude
         held = self._ground.closed(altitude).zones[[*flown.nodes]]
@@ -127,7 +128,7 @@ class _Courses:
             self._zones[key] = _Zones(self._ground.closed_areas(*key))
         return self._zones[key]
 
-    def _way_points(self, flown: Flown) -> Iterator[WayPoint]:
+    def _way_points(self, flown: PlannedFlight) -> Iterator[WayPoint]:
         nodes, leaving = flown.nodes, flown.launch_time
         yield WayPoint("launch", self._place(nodes[0]), flown.launch, 0.0, leaving)
         for index, visit in enumerate(flown.visits):
@@ -147,7 +148,7 @@ class _Courses:
         longitude, latitude = self._ground.locations[node]
         return float(longitude), float(latitude)
 
-    def _leg(self, flown: Flown, start: int, end: int) -> _Leg:
+    def _leg(self, flown: PlannedFlight, start: int, end: int) -> _Leg:
         """Return the flight from node to node, in the worst of several winds.
 
         There is always a way around zones, or it raises.

@@ -13,7 +13,7 @@ from model.travel.wind import Breeze
 
 
 @dataclass(frozen=True)
-class Flown:
+class PlannedFlight:
     """A flight as a plan has it. Times in seconds since plan start."""
 
     vehicle: str
@@ -30,7 +30,7 @@ class Flown:
     number: int = 0  # of the drone's flights, from 1
 
 
-def flown_in(placed: PlacedRequest, plan: PlanInput) -> Iterator[Flown]:
+def flown_in(placed: PlacedRequest, plan: PlanInput) -> Iterator[PlannedFlight]:
     """Yield all flights, by vehicle in the order of take-off."""
     nodes = {name: node for node, name in enumerate(placed.names)}
     types = {kind.id: kind for kind in placed.request.fleet}
@@ -50,13 +50,13 @@ Nodes = Mapping[tuple[str, str], int]
 
 
 def _sorties(route: RouteInput, trip: TripInput, kind: VehicleTypeInput, winds: Winds,
-             nodes: Nodes) -> Iterator[Flown]:
+             nodes: Nodes) -> Iterator[PlannedFlight]:
     for sortie in trip.sorties:
         drones = drones_named(kind, sortie.drone)
         if drones is None:
             continue
         launch, recovery = trip.stops[sortie.launch_stop], trip.stops[sortie.recovery_stop]
-        yield Flown(
+        yield PlannedFlight(
             vehicle=route.vehicle, drone=sortie.drone, flyer=drones,
             winds=winds.flown(kind, drones),
             nodes=(_node(nodes, launch), *(nodes["customer", visit.id]
@@ -68,11 +68,11 @@ def _sorties(route: RouteInput, trip: TripInput, kind: VehicleTypeInput, winds: 
 
 
 def _trips(route: RouteInput, trip: TripInput, kind: VehicleTypeInput, winds: Winds,
-           nodes: Nodes) -> Iterator[Flown]:
+           nodes: Nodes) -> Iterator[PlannedFlight]:
     """Yield a trip, unless nobody is on it."""
     launch, *visits, recovery = trip.stops
     if visits:
-        yield Flown(
+        yield PlannedFlight(
             vehicle=route.vehicle, drone=route.vehicle, flyer=kind, winds=winds.flown(kind, kind),
             nodes=tuple(_node(nodes, stop) for stop in trip.stops),
             launch=launch.id, recovery=recovery.id, visits=tuple(visits),

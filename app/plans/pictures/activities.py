@@ -7,7 +7,7 @@ from itertools import pairwise
 from math import inf
 from typing import Literal
 
-from app.plans.pictures.scene import Scene
+from app.plans.pictures.scene import DrawnPlan
 from app.requests.conversion.launches import drones_of_sortie, launch_durations
 from app.requests.conversion.names import number_in
 from app.requests.conversion.units import whole
@@ -39,7 +39,7 @@ class Window:
 
 
 @dataclass(frozen=True)
-class Row:
+class ActivityRow:
     """One vehicle's or drone's day."""
 
     name: str
@@ -63,7 +63,7 @@ class Row:
         return tuple(lanes)
 
 
-def rows_of(scene: Scene) -> list[Row]:
+def rows_of(scene: DrawnPlan) -> list[ActivityRow]:
     """Return a row per vehicle used, each followed by one per drone that it carries."""
     rows = []
     for index, route in enumerate(scene.plan.routes):
@@ -71,7 +71,7 @@ def rows_of(scene: Scene) -> list[Row]:
         bars = tuple(bar for bar in _truck_bars(scene, route, kind) if bar.end >= bar.start)
         windows = [_window(scene, stop.id, stop.ready, stop.service_start)
                    for trip in route.trips for stop in trip.stops if stop.kind == "customer"]
-        rows.append(Row(route.vehicle, index, False, bars, _stated(windows)))
+        rows.append(ActivityRow(route.vehicle, index, False, bars, _stated(windows)))
         rows += [_drone_row(scene, index, route, drone, kind)
                  for drone in range(_num_drones(route, kind))]
     return rows
@@ -85,7 +85,7 @@ def _num_drones(route: RouteInput, kind: VehicleTypeInput) -> int:
                 *(number + 1 for number in used)])
 
 
-def _truck_bars(scene: Scene, route: RouteInput, kind: VehicleTypeInput) -> Iterator[Bar]:
+def _truck_bars(scene: DrawnPlan, route: RouteInput, kind: VehicleTypeInput) -> Iterator[Bar]:
     end: float | None = None
     for number, trip in enumerate(route.trips):
         loaded = trip.stops[0].arrival
@@ -99,7 +99,7 @@ def _truck_bars(scene: Scene, route: RouteInput, kind: VehicleTypeInput) -> Iter
         end = trip.stops[-1].departure
 
 
-def _halt_bars(scene: Scene, kind: str, stop: StopInput, trip: int) -> Iterator[Bar]:
+def _halt_bars(scene: DrawnPlan, kind: str, stop: StopInput, trip: int) -> Iterator[Bar]:
     if stop.kind == "break":
         yield Bar("rest", stop.service_start, stop.departure, trip)
     elif stop.departure > stop.arrival:
@@ -125,8 +125,8 @@ def _ends(sortie: SortieInput, trip: int, drones: DronesInput, launch: float) ->
               trip)
 
 
-def _drone_row(scene: Scene, index: int, route: RouteInput, drone: int,
-               kind: VehicleTypeInput) -> Row:
+def _drone_row(scene: DrawnPlan, index: int, route: RouteInput, drone: int,
+               kind: VehicleTypeInput) -> ActivityRow:
     name = f"{route.vehicle}/drone-{drone + 1}"
     bars: list[Bar] = []
     windows = []
@@ -137,8 +137,8 @@ def _drone_row(scene: Scene, index: int, route: RouteInput, drone: int,
                 bars += _flight_bars(sortie, number, drones, whole(launch))
                 windows += [_window(scene, visit.id, visit.ready, visit.service_start)
                             for visit in sortie.customers]
-    return Row(name, index, True, tuple(bar for bar in bars if bar.end >= bar.start),
-               _stated(windows))
+    return ActivityRow(name, index, True, tuple(bar for bar in bars if bar.end >= bar.start),
+                       _stated(windows))
 
 
 def _flight_bars(sortie: SortieInput, trip: int, drones: DronesInput | None,
@@ -153,7 +153,7 @@ def _flight_bars(sortie: SortieInput, trip: int, drones: DronesInput | None,
         yield from _ends(sortie, trip, drones, launch)
 
 
-def _window(scene: Scene, customer: str, ready: float, service_start: float) -> Window | None:
+def _window(scene: DrawnPlan, customer: str, ready: float, service_start: float) -> Window | None:
     """Return the customer's window in which service began, if any is stated."""
     windows = scene.customers[customer].windows
     window = next((window for window in reversed(windows) if window.earliest <= service_start),

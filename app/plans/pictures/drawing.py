@@ -17,7 +17,7 @@ from matplotlib.figure import Figure
 from app.plans.pictures.activities import rows_of
 from app.plans.pictures.colours import VERMILLION
 from app.plans.pictures.map import draw_map, extent
-from app.plans.pictures.scene import Layout, Scene
+from app.plans.pictures.scene import DrawnPlan, Layout
 from app.plans.pictures.timeline import draw_timeline, timeline_height
 
 WIDTH, LEFT, RIGHT, LEGEND = 13.0, 1.35, 0.35, 2.5
@@ -41,7 +41,7 @@ SETTINGS: dict[Any, Any] = {
 _LOCK = threading.Lock()
 
 
-def draw_svg(scene: Scene) -> bytes:
+def draw_svg(scene: DrawnPlan) -> bytes:
     """Return a picture as SVG that refers to nothing outside of it."""
     content = _drawn(scene, format="svg",
                      metadata=dict.fromkeys(("Creator", "Date", "Format", "Type")))
@@ -49,12 +49,12 @@ def draw_svg(scene: Scene) -> bytes:
     return b'<?xml version="1.0" encoding="utf-8"?>\n' + content[content.index(b"<svg"):]
 
 
-def draw_png(scene: Scene) -> bytes:
+def draw_png(scene: DrawnPlan) -> bytes:
     """Return a picture as PNG."""
     return _drawn(scene, format="png", dpi=DOTS_PER_INCH, metadata={"Software": None})
 
 
-def _drawn(scene: Scene, **options: Any) -> bytes:
+def _drawn(scene: DrawnPlan, **options: Any) -> bytes:
     content = BytesIO()
     with _drawing_alone():
         _figure(scene).savefig(content, **options)
@@ -69,7 +69,7 @@ def _drawing_alone() -> Iterator[None]:
         yield
 
 
-def _figure(scene: Scene) -> Figure:
+def _figure(scene: DrawnPlan) -> Figure:
     rows = rows_of(scene)
     layout = scene.layout
     below = timeline_height(rows)

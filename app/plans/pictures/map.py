@@ -10,7 +10,7 @@ from matplotlib.path import Path
 
 from app.plans.pictures.colours import BLACK, GREY, INK, VERMILLION, trip_colour, vehicle_marker
 from app.plans.pictures.lines import driven_lines, flown_lines, places_of
-from app.plans.pictures.scene import Layout, Place, Point, Scene, all_trips, counted, label
+from app.plans.pictures.scene import DrawnPlan, Layout, Place, Point, all_trips, counted, label
 from app.plans.pictures.zones import draw_zones, zone_handles, zones_on
 
 MAX_LABELLED = 150
@@ -27,7 +27,7 @@ TIP = 0.06
 """Length of an arrow as a share of its leg."""
 
 
-def draw_map(axes: Axes, scene: Scene, layout: Layout) -> None:
+def draw_map(axes: Axes, scene: DrawnPlan, layout: Layout) -> None:
     """Draw onto empty axes. In place."""
     many = len(scene.request.customers) > MAX_LABELLED
     corners = extent(layout)
@@ -79,7 +79,7 @@ def _draw_no_fly(axes: Axes, layout: Layout) -> None:
         axes.add_patch(area)
 
 
-def _draw_trips(axes: Axes, scene: Scene, layout: Layout, thin: bool) -> None:
+def _draw_trips(axes: Axes, scene: DrawnPlan, layout: Layout, thin: bool) -> None:
     for index, number, _, trip in all_trips(scene.plan.routes):
         colour = trip_colour(index, number)
         legs = list(driven_lines(layout, trip))
@@ -108,7 +108,7 @@ def _between(start: Point, end: Point, share: float) -> Point:
     return (start[0] + (end[0] - start[0]) * share, start[1] + (end[1] - start[1]) * share)
 
 
-def _draw_sorties(axes: Axes, scene: Scene, layout: Layout, thin: bool) -> None:
+def _draw_sorties(axes: Axes, scene: DrawnPlan, layout: Layout, thin: bool) -> None:
     for index, number, _, trip in all_trips(scene.plan.routes):
         for flight, sortie in enumerate(trip.sorties):
             path = _flight(flown_lines(layout, trip, sortie))
@@ -136,7 +136,7 @@ def _flight(lines: Iterable[Sequence[Point]]) -> Path:
     return Path(vertices, codes)
 
 
-def _draw_places(axes: Axes, scene: Scene, layout: Layout, size: float) -> None:
+def _draw_places(axes: Axes, scene: DrawnPlan, layout: Layout, size: float) -> None:
     """Draw depots, and customers filled if a truck serves them, hollow if a drone does."""
     for index, number, _, trip in all_trips(scene.plan.routes):
         colour, marker = trip_colour(index, number), vehicle_marker(index)
@@ -155,7 +155,7 @@ def _draw_places(axes: Axes, scene: Scene, layout: Layout, size: float) -> None:
                       markeredgecolor="white", zorder=6)
 
 
-def _draw_unassigned(axes: Axes, scene: Scene, layout: Layout) -> None:
+def _draw_unassigned(axes: Axes, scene: DrawnPlan, layout: Layout) -> None:
     for index, left_out in enumerate(scene.plan.unassigned):
         x, y = layout.points["customer", left_out.id]
         axes.plot([x], [y], marker="X", markersize=9, color=VERMILLION, markeredgecolor=BLACK,
@@ -167,7 +167,7 @@ def _write(axes: Axes, point: Point, name: str, size: float, weight: str = "norm
                   fontweight=weight, color=INK, zorder=7, annotation_clip=True)
 
 
-def _explain(axes: Axes, scene: Scene, layout: Layout, zones: Sequence[Patch]) -> None:
+def _explain(axes: Axes, scene: DrawnPlan, layout: Layout, zones: Sequence[Patch]) -> None:
     """Add the legend beside the map, zones' entries among it. In place."""
     handles: list[Line2D | Patch] = [
         Line2D([], [], color=BLACK, marker="s", markersize=8, linestyle="none", label="depot")]
@@ -190,7 +190,7 @@ def _explain(axes: Axes, scene: Scene, layout: Layout, zones: Sequence[Patch]) -
                 fontsize=8, borderaxespad=0.0, handlelength=2.6)
 
 
-def _trip_handles(scene: Scene) -> list[Line2D]:
+def _trip_handles(scene: DrawnPlan) -> list[Line2D]:
     trips = list(all_trips(scene.plan.routes))
     handles = []
     for index, number, route, trip in trips[:MAX_LEGEND]:

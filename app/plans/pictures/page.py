@@ -4,7 +4,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from html import escape
 
 from app.plans.pictures.drawing import draw_svg
-from app.plans.pictures.scene import Scene
+from app.plans.pictures.scene import DrawnPlan
 from app.schemas.customer import CustomerInput, TimeWindowInput
 from app.schemas.plan import RouteInput, SortieInput, StopInput, TripInput
 
@@ -28,7 +28,7 @@ _NUMBERS = frozenset({0, 2, 3, 4, 6, 7})
 """Columns of numbers in a table of stops."""
 
 
-def draw_page(scene: Scene) -> bytes:
+def draw_page(scene: DrawnPlan) -> bytes:
     """Return a page in UTF-8."""
     svg = draw_svg(scene).decode()
     parts = (
@@ -46,20 +46,20 @@ def draw_page(scene: Scene) -> bytes:
     return "".join(parts).encode()
 
 
-def _cost_table(scene: Scene) -> str:
+def _cost_table(scene: DrawnPlan) -> str:
     terms = [*(term for term in scene.cost if term != "total"), "total"]
     rows = [(term.capitalize(), f"{scene.cost[term]:,.2f}") for term in terms]
     return _table("Cost", ("Term", "Cost"), rows, numbers={1})
 
 
-def _route_section(scene: Scene, route: RouteInput) -> str:
+def _route_section(scene: DrawnPlan, route: RouteInput) -> str:
     rows = [row for number, trip in enumerate(route.trips, 1)
             for row in _trip_rows(scene, number, trip)]
     table = _table(f"Stops of {route.vehicle}", STOP_COLUMNS, rows, _NUMBERS)
     return f"<section>{table}</section>\n"
 
 
-def _trip_rows(scene: Scene, number: int, trip: TripInput) -> Iterator[Sequence[str]]:
+def _trip_rows(scene: DrawnPlan, number: int, trip: TripInput) -> Iterator[Sequence[str]]:
     """Yield a row per stop, each followed by the sorties launched there."""
     for index, stop in enumerate(trip.stops):
         yield _stop_row(scene, number, stop)
@@ -68,7 +68,7 @@ def _trip_rows(scene: Scene, number: int, trip: TripInput) -> Iterator[Sequence[
                 yield from _sortie_rows(scene, number, trip, sortie)
 
 
-def _stop_row(scene: Scene, number: int, stop: StopInput) -> Sequence[str]:
+def _stop_row(scene: DrawnPlan, number: int, stop: StopInput) -> Sequence[str]:
     if stop.kind in ("depot", "break"):
         return (str(number), stop.id, scene.clock(stop.arrival), "", scene.clock(stop.departure),
                 "", "", "", "truck")
@@ -76,7 +76,7 @@ def _stop_row(scene: Scene, number: int, stop: StopInput) -> Sequence[str]:
             scene.clock(stop.departure), *_order(scene, stop.id, stop.ready), "truck")
 
 
-def _sortie_rows(scene: Scene, number: int, trip: TripInput,
+def _sortie_rows(scene: DrawnPlan, number: int, trip: TripInput,
                  sortie: SortieInput) -> Iterator[Sequence[str]]:
     drone = sortie.drone.rpartition("/")[2]
     back = f"back at {trip.stops[sortie.recovery_stop].id} by {scene.clock(sortie.recovery_time)}"
@@ -86,7 +86,7 @@ def _sortie_rows(scene: Scene, number: int, trip: TripInput,
                f"{drone}, off at {scene.clock(sortie.launch_time)}, {back}")
 
 
-def _order(scene: Scene, name: str, ready: float) -> tuple[str, str, str]:
+def _order(scene: DrawnPlan, name: str, ready: float) -> tuple[str, str, str]:
     """Return a customer's windows, the minutes of lateness and the demand."""
     customer = scene.customers[name]
     latest = customer.windows[-1].latest
@@ -106,14 +106,14 @@ def _amounts(amounts: Sequence[float]) -> str:
     return ", ".join(f"{amount:g}" for amount in amounts)
 
 
-def _window(scene: Scene, window: TimeWindowInput) -> str:
+def _window(scene: DrawnPlan, window: TimeWindowInput) -> str:
     latest = "" if window.latest is None else scene.clock(window.latest)
     if not (window.earliest or latest):
         return ""
     return f"{scene.clock(window.earliest)} to {latest}".strip()
 
 
-def _unassigned(scene: Scene) -> str:
+def _unassigned(scene: DrawnPlan) -> str:
     if not scene.plan.unassigned:
         return ""
     rows = [(left_out.id, " ".join(str(reason.get("message", ""))

@@ -46,7 +46,7 @@ class Layout:
 
 
 @dataclass(frozen=True)
-class Scene:
+class DrawnPlan:
     """A plan that can be drawn: all that it names is there. Times in seconds."""
 
     request: PlanRequest
@@ -58,7 +58,7 @@ class Scene:
 
     @classmethod
     def judged(cls, request: PlanRequest, plan: PlanInput,
-               roads: Roads = NO_ROADS) -> "Scene":
+               roads: Roads = NO_ROADS) -> "DrawnPlan":
         """Return a plan of a file with what it truly costs; it may break rules.
 
         Raises
@@ -80,7 +80,7 @@ class Scene:
 
     @classmethod
     def replied(cls, request: PlanRequest, reply: bytes,
-                published: Sequence[Zone] = ()) -> "Scene":
+                published: Sequence[Zone] = ()) -> "DrawnPlan":
         """Return a plan as the service replied it, which has been checked."""
         stated = from_json(reply)
         plan = read_body(PlanInput, reply)

@@ -9,9 +9,9 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 from matplotlib.ticker import FuncFormatter, MultipleLocator
 
-from app.plans.pictures.activities import Activity, Row
+from app.plans.pictures.activities import Activity, ActivityRow
 from app.plans.pictures.colours import BLACK, GREY, INK, PALE, VERMILLION, YELLOW, trip_colour
-from app.plans.pictures.scene import Point, Scene, label
+from app.plans.pictures.scene import DrawnPlan, Point, label
 
 STEPS = (60, 120, 300, 600, 900, 1800, 3600, 7200, 10_800, 14_400, 21_600, 43_200, 86_400)
 """Seconds between two ticks: the first that needs no more than MAX_TICKS."""
@@ -38,7 +38,7 @@ _ORDER: dict[Activity, int] = {
     "drive": 2, "fly": 2, "reload": 2, "rest": 2, "wait": 3, "launch": 4, "serve": 5}
 
 
-def row_tops(rows: Sequence[Row]) -> list[float]:
+def row_tops(rows: Sequence[ActivityRow]) -> list[float]:
     """Return where each row begins, and where the last one ends, in inches from the top."""
     tops = [SPACE / 2]
     for row in rows:
@@ -46,16 +46,16 @@ def row_tops(rows: Sequence[Row]) -> list[float]:
     return tops
 
 
-def _num_lanes(row: Row) -> int:
+def _num_lanes(row: ActivityRow) -> int:
     return max(row.lanes, default=-1) + 1
 
 
-def timeline_height(rows: Sequence[Row]) -> float:
+def timeline_height(rows: Sequence[ActivityRow]) -> float:
     """Return how high a timeline should be in inches."""
     return min(max(row_tops(rows)[-1], 2 * (BAR + SPACE)), MAX_HEIGHT)
 
 
-def draw_timeline(axes: Axes, rows: Sequence[Row], scene: Scene) -> None:
+def draw_timeline(axes: Axes, rows: Sequence[ActivityRow], scene: DrawnPlan) -> None:
     """Draw onto empty axes. In place."""
     tops = row_tops(rows)
     span = _span(rows)
@@ -74,18 +74,18 @@ def draw_timeline(axes: Axes, rows: Sequence[Row], scene: Scene) -> None:
     _explain(axes, rows)
 
 
-def _row_name(row: Row) -> str:
+def _row_name(row: ActivityRow) -> str:
     return label(row.name.rpartition("/")[2] if row.is_drone else row.name)
 
 
-def _span(rows: Sequence[Row]) -> tuple[float, float]:
+def _span(rows: Sequence[ActivityRow]) -> tuple[float, float]:
     """Return when the first activity begins and the last ends, never the same."""
     bars = [bar for row in rows for bar in row.bars]
     start = min((bar.start for bar in bars), default=0.0)
     return start, max(max((bar.end for bar in bars), default=0.0), start + 60.0)
 
 
-def _set_hours(axes: Axes, span: tuple[float, float], scene: Scene) -> None:
+def _set_hours(axes: Axes, span: tuple[float, float], scene: DrawnPlan) -> None:
     start, end = span
     margin = 0.01 * (end - start)
     axes.set_xlim(start - margin, end + margin)
@@ -100,7 +100,7 @@ def _set_hours(axes: Axes, span: tuple[float, float], scene: Scene) -> None:
     axes.set_axisbelow(True)
 
 
-def _draw_bars(axes: Axes, rows: Sequence[Row], tops: Sequence[float]) -> None:
+def _draw_bars(axes: Axes, rows: Sequence[ActivityRow], tops: Sequence[float]) -> None:
     """Draw all bars that look alike together: thousands are drawn so in no time. In place."""
     alike: dict[tuple[Activity, str], list[list[Point]]] = defaultdict(list)
     for row, top in zip(rows, tops, strict=False):
@@ -123,7 +123,7 @@ def _outline(activity: Activity, colour: str) -> str:
     return GREY if activity in ("launch", "wait") else colour
 
 
-def _draw_windows(axes: Axes, rows: Sequence[Row], tops: Sequence[float],
+def _draw_windows(axes: Axes, rows: Sequence[ActivityRow], tops: Sequence[float],
                   span: tuple[float, float]) -> None:
     """Draw windows under the bars, with a dot where service begins, late ones apart. In place."""
     lines: dict[bool, list[list[Point]]] = defaultdict(list)
@@ -144,7 +144,7 @@ def _draw_windows(axes: Axes, rows: Sequence[Row], tops: Sequence[float],
                   markersize=3.4 if is_late else 2.6, color=colour, zorder=4 + is_late)
 
 
-def _explain(axes: Axes, rows: Sequence[Row]) -> None:
+def _explain(axes: Axes, rows: Sequence[ActivityRow]) -> None:
     """Add the legend above the timeline. In place."""
     seen = {bar.activity for row in rows for bar in row.bars if bar.end > bar.start}
     handles: list[Patch | Line2D] = []

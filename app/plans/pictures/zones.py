@@ -11,8 +11,8 @@ from matplotlib.path import Path
 
 from app.maps.airspace.zone import Restriction
 from app.plans.pictures.colours import INK, ZONES
-from app.plans.pictures.scene import Layout, Point, Scene, label
-from app.requests.conversion.zones import Part, ZonesMet
+from app.plans.pictures.scene import DrawnPlan, Layout, Point, label
+from app.requests.conversion.zones import ZoneVolume, ZonesMet
 
 MAX_NAMED = 40
 """With more zones than this their names would cover each other."""
@@ -27,21 +27,21 @@ ASKS_FOR: dict[Restriction, str] = {
 class Drawn(NamedTuple):
     """A volume of a zone within the map, in km east and north."""
 
-    part: Part
+    part: ZoneVolume
     area: shapely.Polygon
     is_flown_over: bool
 
 
-def zones_on(scene: Scene, layout: Layout, corners: tuple[Point, Point]) -> list[Drawn]:
+def zones_on(scene: DrawnPlan, layout: Layout, corners: tuple[Point, Point]) -> list[Drawn]:
     """Return the zones between two corners of a map that drones meet at any of their altitudes."""
     window = shapely.box(*corners[0], *corners[1])
     return [drawn for drawn in _met(scene, layout) if drawn.area.intersects(window)]
 
 
-def _met(scene: Scene, layout: Layout) -> Iterator[Drawn]:
+def _met(scene: DrawnPlan, layout: Layout) -> Iterator[Drawn]:
     met = ZonesMet(scene.request, scene.published)
     altitudes = sorted({flyer.altitude for kind in scene.request.fleet for flyer in kind.flyers})
-    seen: set[Part] = set()
+    seen: set[ZoneVolume] = set()
     for is_flown_over in (False, True):
         parts = dict.fromkeys(part for altitude in altitudes
                               for part in met.at(altitude)[int(is_flown_over)])

@@ -8,13 +8,13 @@ from collections.abc import Collection, Iterator, Mapping
 from dataclasses import dataclass, field
 
 from app.records.dispatches.retiming import TripTold
-from app.records.dispatches.standing import Standing, Told
+from app.records.dispatches.standing import Standing, ToldStep
 from app.records.dispatches.steps import flight_id, stop_ids
 from app.schemas.plan import RouteInput, TripInput
 
 
 @dataclass(frozen=True)
-class Doubt:
+class DoubtfulOrder:
     """An order of which nobody told."""
 
     customer: str
@@ -35,21 +35,22 @@ class Answers:
     unserved: Collection[str] = field(default_factory=frozenset)
 
 
-def doubts_of(route: RouteInput, standing: Standing, now: float) -> list[Doubt]:
+def doubts_of(route: RouteInput, standing: Standing, now: float) -> list[DoubtfulOrder]:
     """Return the orders of a route that it has as served by now, and of which nobody told."""
     begun = [TripTold(index, trip, standing).is_begun for index, trip in enumerate(route.trips)]
     return [doubt for index, trip in enumerate(route.trips) for doubt in _on_trip(
         route.vehicle, TripTold(index, trip, standing, any(begun[index + 1:])), standing, now)]
 
 
-def _on_trip(vehicle: str, told: TripTold, standing: Standing, now: float) -> Iterator[Doubt]:
+def _on_trip(vehicle: str, told: TripTold, standing: Standing,
+             now: float) -> Iterator[DoubtfulOrder]:
     index, trip = told.index, told.planned
     for place, stop in enumerate(trip.stops):
         if stop.kind == "customer" and stop.departure <= now:
             (step,) = stop_ids(index, trip, place)
             if step not in standing:
-                yield Doubt(stop.customer, vehicle, stop.departure, step, step,
-                            told.has_left(place), False, told.latest(place, now))
+                yield DoubtfulOrder(stop.customer, vehicle, stop.departure, step, step,
+                                    told.has_left(place), False, told.latest(place, now))
     for sortie in trip.sorties:
         launch, recover = (flight_id(index, kind, sortie) for kind in ("launch", "recover"))
         if sortie.recovery_time <= now and recover not in standing and (
@@ -57,13 +58,13 @@ def _on_trip(vehicle: str, told: TripTold, standing: Standing, now: float) -> It
             is_launched = launch in standing
             place = sortie.recovery_stop if is_launched else sortie.launch_stop
             for visit in sortie.customers:
-                yield Doubt(visit.customer, vehicle, sortie.recovery_time, recover,
-                            recover if is_launched else launch, told.has_left(place),
-                            is_launched, told.latest(place, now))
+                yield DoubtfulOrder(visit.customer, vehicle, sortie.recovery_time, recover,
+                                    recover if is_launched else launch, told.has_left(place),
+                                    is_launched, told.latest(place, now))
 
 
-def answered(route: RouteInput, standing: Standing, doubts: Collection[Doubt], answers: Answers,
-             is_broken: bool, now: float) -> Mapping[str, Told] | None:
+def answered(route: RouteInput, standing: Standing, doubts: Collection[DoubtfulOrder],
+             answers: Answers, is_broken: bool, now: float) -> Mapping[str, ToldStep] | None:
     """Return how the steps of a route stand with what is known of those in doubt.
 
     None if the vehicle is where the plan has it.
@@ -82,17 +83,17 @@ def answered(route: RouteInput, standing: Standing, doubts: Collection[Doubt], a
     return {**departed, **standing, **_marked(doubts, served, unserved)}
 
 
-def _marked(doubts: Collection[Doubt], served: Collection[Doubt],
-            unserved: Collection[Doubt]) -> dict[str, Told]:
+def _marked(doubts: Collection[DoubtfulOrder], served: Collection[DoubtfulOrder],
+            unserved: Collection[DoubtfulOrder]) -> dict[str, ToldStep]:
     """Return steps in doubt as they were planned: done, or failed."""
-    return {**{doubt.step: Told("done", min(doubt.time, doubt.latest))
+    return {**{doubt.step: ToldStep("done", min(doubt.time, doubt.latest))
                for doubt in doubts if doubt in served},
-            **{doubt.failing: Told("failed", min(doubt.time, doubt.latest))
+            **{doubt.failing: ToldStep("failed", min(doubt.time, doubt.latest))
                for doubt in doubts if doubt in unserved}}
 
 
-def _departed(trips: Collection[TripInput], now: float) -> dict[str, Told]:
+def _departed(trips: Collection[TripInput], now: float) -> dict[str, ToldStep]:
     """Return that a vehicle that broke down had left as planned: its parcels are aboard."""
-    return {step: Told("done", trip.stops[0].departure) for trip in trips
+    return {step: ToldStep("done", trip.stops[0].departure) for trip in trips
             if trip.stops and trip.stops[0].departure <= now
             for step in stop_ids(0, trip, 0)}

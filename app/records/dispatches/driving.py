@@ -7,7 +7,7 @@ from app.records.clock import now_ms
 from app.records.dispatches.errors import LinkOverError, TooManyEventsError
 from app.records.dispatches.instants import instant, milliseconds
 from app.records.dispatches.links import find_link
-from app.records.dispatches.rows import DispatchRow, EventRow, LinkRow
+from app.records.dispatches.rows import DispatchRow, EventRow, VehicleLinkRow
 from app.records.dispatches.schemas import DriverDay, EventInput, EventsReply, EventsRequest
 from app.records.dispatches.standing import Standing, standing_of, standing_reply
 from app.records.dispatches.store import DispatchStore
@@ -61,7 +61,7 @@ def read_flights(store: DispatchStore, token: str) -> list[Flight]:
     return flights
 
 
-def _open_link(store: DispatchStore, token: str) -> tuple[LinkRow, DispatchRow]:
+def _open_link(store: DispatchStore, token: str) -> tuple[VehicleLinkRow, DispatchRow]:
     link, dispatch = find_link(store, token)
     if link.revoked_at is not None or dispatch.ends_at <= now_ms():
         raise LinkOverError(link.revoked_at is not None)
@@ -102,7 +102,7 @@ def _row(event: EventInput, wrong_by: int, now: int) -> EventRow:
     return EventRow(event.id, event.step, event.kind, time, event.reason)
 
 
-def _standing(store: DispatchStore, link: LinkRow, dispatch: DispatchRow) -> Standing:
+def _standing(store: DispatchStore, link: VehicleLinkRow, dispatch: DispatchRow) -> Standing:
     return standing_of(store.events(dispatch.id).get(link.position, []), dispatch.plan_start)
 
 

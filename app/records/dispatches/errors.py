@@ -31,7 +31,8 @@ class TooManyDispatchesError(RequestError, status=429, name="too-many-dispatches
                          "(TANDEM_MAX_DISPATCHES_PER_CLIENT): end some of them.")
 
 
-class UnknownLinkError(RequestError, status=401, name="unknown-driver-link", refusal="access"):
+class UnknownVehicleLinkError(RequestError, status=401, name="unknown-driver-link",
+                              refusal="access"):
     """No link has this token; which of all reasons it is, isn't told."""
 
     title = "The link is not valid"

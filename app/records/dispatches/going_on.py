@@ -3,7 +3,7 @@
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
-from app.records.dispatches.doubts import Answers, Doubt, answered, doubts_of
+from app.records.dispatches.doubts import Answers, DoubtfulOrder, answered, doubts_of
 from app.records.dispatches.retiming import Retimed, retime
 from app.records.dispatches.schemas import (
     DoubtfulReply, FailedReply, GoingOnReply, StepKind, StepReply,
@@ -74,7 +74,7 @@ def going_on(plan: PlanInput, vehicles: Mapping[str, OnTheRoad], now: float,
                         doubtful=doubtful)
 
 
-def _reply(doubt: Doubt, standing: Standing | None) -> DoubtfulReply:
+def _reply(doubt: DoubtfulOrder, standing: Standing | None) -> DoubtfulReply:
     """Return an order in doubt, and whether it is held to be served."""
     is_served = standing is None or (
         standing[doubt.step].outcome == "done" if doubt.step in standing

@@ -14,14 +14,15 @@ LATEST_HOME = timedelta(hours=4)
 
 
 @dataclass(frozen=True)
-class Day:
+class PlanStart:
     """The instant from which a plan counts, and the zone of its drivers."""
 
     plan_start: datetime
     time_zone: str | None
 
     @classmethod
-    def stated(cls, plan_start: datetime | None, time_zone: str | None, now: datetime) -> "Day":
+    def stated(cls, plan_start: datetime | None, time_zone: str | None,
+               now: datetime) -> "PlanStart":
         """Return the day that a request states, today in UTC if it states none.
 
         Raises

@@ -2,8 +2,8 @@
 
 import segno
 
-from app.records.dispatches.errors import UnknownLinkError
-from app.records.dispatches.rows import DispatchRow, LinkRow
+from app.records.dispatches.errors import UnknownVehicleLinkError
+from app.records.dispatches.rows import DispatchRow, VehicleLinkRow
 from app.records.dispatches.store import DispatchStore
 from app.serving.access.tokens import NO_DIGEST, TokenKind, is_token
 
@@ -27,7 +27,7 @@ def qr_of(address: str) -> str:
     return segno.make(address, error="m", micro=False).svg_data_uri(border=4)
 
 
-def find_link(store: DispatchStore, presented: str) -> tuple[LinkRow, DispatchRow]:
+def find_link(store: DispatchStore, presented: str) -> tuple[VehicleLinkRow, DispatchRow]:
     """Return the link whose token was presented, valid or not any more, and its dispatch.
 
     Raises
@@ -37,5 +37,5 @@ def find_link(store: DispatchStore, presented: str) -> tuple[LinkRow, DispatchRo
     """
     found = store.link(DRIVER_TOKENS.id_of(presented))
     if not is_token(presented, found[0].digest if found else NO_DIGEST) or found is None:
-        raise UnknownLinkError
+        raise UnknownVehicleLinkError
     return found

@@ -13,7 +13,7 @@ from starlette.types import Scope
 from app.plans.flights.files import FORMAT_ASKED, flight_file
 from app.plans.flights.routes import FLIGHTS, sent
 from app.records.dispatches.driving import read_day, read_flights, tell
-from app.records.dispatches.errors import UnknownLinkError
+from app.records.dispatches.errors import UnknownVehicleLinkError
 from app.records.dispatches.links import DRIVER_TOKENS
 from app.records.dispatches.schemas import DriverDay, EventsReply, EventsRequest
 from app.records.dispatches.store import DispatchStore
@@ -77,7 +77,7 @@ async def driver_day(request: Request, token: Token, database: Database) -> Resp
     """Return the day of the vehicle that the link is for, and nothing of any other."""
     try:
         day = await database.reach(lambda engine: read_day(DispatchStore(engine), token))
-    except UnknownLinkError:
+    except UnknownVehicleLinkError:
         raise _unknown(request) from None
     return Response(day.model_dump_json(), media_type="application/json")
 
@@ -94,7 +94,7 @@ async def driver_flights(
     """Return the flights of the vehicle's drones as `POST /flights` does; no permission to fly."""
     try:
         flights = await database.reach(lambda engine: read_flights(DispatchStore(engine), token))
-    except UnknownLinkError:
+    except UnknownVehicleLinkError:
         raise _unknown(request) from None
     return sent(flight_file(flights, file_format, per, FORMAT_ASKED, wpml))
 
@@ -106,16 +106,16 @@ async def driver_events(request: Request, token: Token, database: Database, body
     try:
         reply = await database.reach(lambda engine: tell(
             DispatchStore(engine), token, read_model(body.content, EventsRequest)))
-    except UnknownLinkError:
+    except UnknownVehicleLinkError:
         raise _unknown(request) from None
     return Response(reply.model_dump_json(), media_type="application/json")
 
 
-def _unknown(request: Request) -> UnknownLinkError:
+def _unknown(request: Request) -> UnknownVehicleLinkError:
     """Count a wrong token and return how it is refused; raises if there were too many."""
     guard: Guard = request.app.state.guard
     guard.count_wrong_token(request)
-    return UnknownLinkError()
+    return UnknownVehicleLinkError()
 
 
 class DriveFiles(StaticFiles):

@@ -21,7 +21,7 @@ class DispatchRow:
 
 
 @dataclass(frozen=True)
-class LinkRow:
+class VehicleLinkRow:
     """A vehicle's link, without its steps."""
 
     id: str

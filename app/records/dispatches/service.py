@@ -13,9 +13,9 @@ from app.records.dispatches.errors import (
     DispatchOverError, TooManyDispatchesError, UnknownDispatchError,
 )
 from app.records.dispatches.going_on import OnTheRoad, going_on
-from app.records.dispatches.instants import Day, instant, milliseconds
+from app.records.dispatches.instants import PlanStart, instant, milliseconds
 from app.records.dispatches.links import DRIVER_TOKENS
-from app.records.dispatches.rows import DispatchRow, LinkRow
+from app.records.dispatches.rows import DispatchRow, VehicleLinkRow
 from app.records.dispatches.schemas import DispatchRequest, GoingOnReply, StepReply
 from app.records.dispatches.standing import Standing, standing_of
 from app.records.dispatches.steps import StepMaker
@@ -41,7 +41,7 @@ LONGEST = timedelta(seconds=MAX_INSTANT)
 class LinkStanding:
     """A vehicle's link, its steps and how they stand."""
 
-    link: LinkRow
+    link: VehicleLinkRow
     steps: list[StepReply]
     standing: Standing
     told_at: int | None  # milliseconds since 1970
@@ -88,7 +88,7 @@ class DispatchService:
         row = self._row(request, owner, client)
         maker = StepMaker(at_addresses(request.problem, request.plan))
         tokens = [DRIVER_TOKENS.make() for _ in request.plan.routes]
-        links = [(LinkRow(token.id, row.id, position, route.vehicle, token.digest),
+        links = [(VehicleLinkRow(token.id, row.id, position, route.vehicle, token.digest),
                   maker.steps(route))
                  for position, (route, token) in enumerate(
                      zip(request.plan.routes, tokens, strict=True))]
@@ -139,7 +139,7 @@ class DispatchService:
         known = {link.vehicle for link in there}
         tokens = {name: DRIVER_TOKENS.make() for name in steps if name not in known}
         first = 1 + max((link.position for link in there), default=-1)
-        links = [(LinkRow(token.id, row.id, position, name, token.digest), steps[name])
+        links = [(VehicleLinkRow(token.id, row.id, position, name, token.digest), steps[name])
                  for position, (name, token) in enumerate(tokens.items(), first)]
         self._store.change(row.id, request.plan,
                            [(link, steps.get(link.vehicle, [])) for link in there], links,
@@ -176,8 +176,8 @@ class DispatchService:
         row = self._open(dispatch, owner)
         former = self._link(row, link)
         token = DRIVER_TOKENS.make()
-        self._store.replace_link(former, LinkRow(token.id, row.id, former.position,
-                                                 former.vehicle, token.digest))
+        self._store.replace_link(former, VehicleLinkRow(token.id, row.id, former.position,
+                                                        former.vehicle, token.digest))
         return self._followed(row, {token.id: token})
 
     def going_on(self, dispatch: str, owner: str, now: float | None,
@@ -209,7 +209,7 @@ class DispatchService:
         plan_start, time_zone = _day_of(request)
         if plan_start is not None and not -LONGEST < plan_start - now < FARTHEST:
             raise _not_today()
-        day = Day.stated(plan_start, time_zone, now)
+        day = PlanStart.stated(plan_start, time_zone, now)
         ends_at = (now + timedelta(hours=self._settings.dispatch_hours)
                    if plan_start is None else day.end(request.plan))
         if not now < ends_at < now + FARTHEST:
@@ -227,7 +227,7 @@ class DispatchService:
         if there >= most:
             raise TooManyDispatchesError(most)
 
-    def _link(self, row: DispatchRow, link: str) -> LinkRow:
+    def _link(self, row: DispatchRow, link: str) -> VehicleLinkRow:
         found = [other for other in self._store.links(row.id) if other.id == link]
         if not found:
             raise UnknownDispatchError

@@ -8,7 +8,7 @@ from app.records.dispatches.schemas import BREAKDOWN, Outcome, StepReply, StepSt
 
 
 @dataclass(frozen=True)
-class Told:
+class ToldStep:
     """What was told last of a step."""
 
     outcome: Outcome
@@ -16,7 +16,7 @@ class Told:
     reason: str | None = None
 
 
-Standing = Mapping[str, Told]
+Standing = Mapping[str, ToldStep]
 """Steps of which something holds, by id."""
 
 
@@ -28,8 +28,8 @@ def standing_of(events: Iterable[EventRow], plan_start: int) -> Standing:
     last: dict[str, EventRow] = {}
     for event in sorted(events, key=lambda event: (event.time, event.number)):
         last[event.step] = event
-    return {step: Told("done" if event.kind == "done" else "failed",
-                       (event.time - plan_start) / 1000, event.reason)
+    return {step: ToldStep("done" if event.kind == "done" else "failed",
+                           (event.time - plan_start) / 1000, event.reason)
             for step, event in last.items() if event.kind != "undone"}
 
 

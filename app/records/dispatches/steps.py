@@ -25,7 +25,7 @@ _RANKS: Mapping[StepKind, int] = {"return": 0, "recover": 1, "launch": 2, "stop"
 
 
 @dataclass(frozen=True)
-class Visit:
+class TimedStep:
     """A step and when it begins, by which those at one stop are ordered."""
 
     begin: float
@@ -100,7 +100,7 @@ class StepMaker:
             visits, key=lambda visit: (visit.begin, _RANKS[visit.step.kind]))]
 
     def _visits(self, kind: VehicleTypeInput, index: int, trip: TripInput,
-                position: int) -> Iterator[Visit]:
+                position: int) -> Iterator[TimedStep]:
         """Yield what is done at a stop but for drones, if anything."""
         stop, name = trip.stops[position], stop_kind(trip, position)
         if name is None:
@@ -111,22 +111,22 @@ class StepMaker:
             update={"id": name_of_step})
         if name == "stop":
             customer = self._customers[stop.id]
-            yield Visit(stop.service_start, step.model_copy(update={
+            yield TimedStep(stop.service_start, step.model_copy(update={
                 "windows": _windows(customer), "customers": [self._goods(stop.id)],
                 "duration": stop.departure - stop.service_start}))
             return
         load = self._load(trip) if name == "depart" else None
-        yield Visit(step.time, step.model_copy(update={"load": load}))
+        yield TimedStep(step.time, step.model_copy(update={"load": load}))
 
     def _flight(self, name: StepKind, kind: VehicleTypeInput, index: int, trip: TripInput,
-                number: int, lasts: float) -> Visit:
+                number: int, lasts: float) -> TimedStep:
         """Return the launch or the recovery of a drone."""
         sortie = trip.sorties[number]
         is_launch = name == "launch"
         position = sortie.launch_stop if is_launch else sortie.recovery_stop
         time = sortie.launch_time if is_launch else sortie.recovery_time
         step = self._step(name, kind, index, trip.stops[position], position, time)
-        return Visit(time - lasts, step.model_copy(update={
+        return TimedStep(time - lasts, step.model_copy(update={
             "id": flight_id(index, name, sortie), "drone": sortie.drone, "duration": lasts,
             "customers": [self._goods(visit.id) for visit in sortie.customers]}))
 

@@ -11,7 +11,7 @@ from sqlalchemy import Connection, Engine, delete, func, insert, select, update
 from app.database.tables import DISPATCHES, EVENTS, LINKS
 from app.plans.flights.flight import Flight
 from app.records.clock import now_ms
-from app.records.dispatches.rows import DispatchRow, EventRow, LinkRow
+from app.records.dispatches.rows import DispatchRow, EventRow, VehicleLinkRow
 from app.records.dispatches.schemas import StepReply
 from app.schemas.plan import PlanInput
 
@@ -52,7 +52,7 @@ class DispatchStore:
         self._engine = engine
 
     def add(self, dispatch: DispatchRow, plan: PlanInput,
-            links: Sequence[tuple[LinkRow, Sequence[StepReply]]], flown: Flown,
+            links: Sequence[tuple[VehicleLinkRow, Sequence[StepReply]]], flown: Flown,
             refuse: Callable[[int], None]) -> None:
         """Keep a dispatch unless `refuse` raises, told how many its client has open. In place."""
         open_ones = (select(func.count()).select_from(DISPATCHES)
@@ -86,20 +86,20 @@ class DispatchStore:
                 select(DISPATCHES.c.plan).where(DISPATCHES.c.id == dispatch))
         return PlanInput.model_validate_json(zlib.decompress(content or b""))
 
-    def link(self, link: str) -> tuple[LinkRow, DispatchRow] | None:
+    def link(self, link: str) -> tuple[VehicleLinkRow, DispatchRow] | None:
         """Return a link and the dispatch that it is of."""
         with self._engine.connect() as connection:
             row = connection.execute(select(*_LINK).where(LINKS.c.id == link)).mappings().first()
-        found = None if row is None else LinkRow(**row)
+        found = None if row is None else VehicleLinkRow(**row)
         dispatch = None if found is None else self.find(found.dispatch)
         return None if found is None or dispatch is None else (found, dispatch)
 
-    def links(self, dispatch: str) -> list[LinkRow]:
+    def links(self, dispatch: str) -> list[VehicleLinkRow]:
         """Return each vehicle's youngest link, in the plan's order."""
         statement = (select(*_LINK).where(LINKS.c.dispatch == dispatch)
                      .order_by(LINKS.c.position, LINKS.c.revoked_at.is_(None)))
         with self._engine.connect() as connection:
-            rows = [LinkRow(**row) for row in connection.execute(statement).mappings()]
+            rows = [VehicleLinkRow(**row) for row in connection.execute(statement).mappings()]
         return list({row.position: row for row in rows}.values())
 
     def steps(self, link: str) -> list[StepReply]:
@@ -114,7 +114,7 @@ class DispatchStore:
             content = connection.scalar(select(LINKS.c.flights).where(LINKS.c.id == link))
         return [] if content is None else FLIGHTS.validate_json(zlib.decompress(content))
 
-    def replace_link(self, former: LinkRow, link: LinkRow) -> None:
+    def replace_link(self, former: VehicleLinkRow, link: VehicleLinkRow) -> None:
         """Put a link in place of another, which is revoked. In place."""
         with self._engine.begin() as connection:
             work = connection.execute(select(LINKS.c.steps, LINKS.c.flights).where(
@@ -123,8 +123,8 @@ class DispatchStore:
             _add_link(connection, link, work)
 
     def change(self, dispatch: str, plan: PlanInput,
-               steps: Sequence[tuple[LinkRow, Sequence[StepReply]]],
-               links: Sequence[tuple[LinkRow, Sequence[StepReply]]], flown: Flown) -> None:
+               steps: Sequence[tuple[VehicleLinkRow, Sequence[StepReply]]],
+               links: Sequence[tuple[VehicleLinkRow, Sequence[StepReply]]], flown: Flown) -> None:
         """Put another plan in a dispatch's place. In place.
 
         Parameters
@@ -161,7 +161,7 @@ class DispatchStore:
             connection.execute(update(LINKS).values(opened_at=now_ms()).where(
                 LINKS.c.id == link, LINKS.c.opened_at.is_(None)))
 
-    def add_events(self, link: LinkRow, events: Sequence[EventRow],
+    def add_events(self, link: VehicleLinkRow, events: Sequence[EventRow],
                    refuse: Callable[[int], None]) -> None:
         """Keep events that aren't there yet, in order, unless `refuse` raises. In place.
 
@@ -215,7 +215,7 @@ def _packed_work(steps: Sequence[StepReply],
             "flights": zlib.compress(FLIGHTS.dump_json(list(flights)), FAST) if flights else None}
 
 
-def _add_link(connection: Connection, link: LinkRow, work: Mapping[Any, Any]) -> None:
+def _add_link(connection: Connection, link: VehicleLinkRow, work: Mapping[Any, Any]) -> None:
     connection.execute(insert(LINKS).values(**asdict(link), **work))
 
 

@@ -30,7 +30,7 @@ LOOKING = 0.5
 
 
 @dataclass(frozen=True)
-class Asked:
+class JobTask:
     """A job's task, and how to plan it."""
 
     task: Task
@@ -38,12 +38,12 @@ class Asked:
 
 
 def asked_of(request: PlanRequest, search_threads: int, roads: Roads,
-             should_stop: Callable[[], bool]) -> Asked:
-    """Return what a job's request asks for; raises as `Asking.make` does."""
+             should_stop: Callable[[], bool]) -> JobTask:
+    """Return what a job's request asks for; raises as `TaskMaker.make` does."""
     work = preparing(request.options, JOB_BOUNDS, should_stop).beside_search(
         LEAST_PREPARING, "a job's search")
     task = task_of(request, work, roads=roads)
-    return Asked(task, plan_options(request.options, search_threads))
+    return JobTask(task, plan_options(request.options, search_threads))
 
 
 @dataclass
@@ -52,10 +52,10 @@ class _Kept:
 
     lock: threading.Lock
     used_at: float
-    asked: Asked | None = None
+    asked: JobTask | None = None
 
 
-class Asking:
+class TaskMaker:
     """Makes tasks of the requests of jobs.
 
     Parameters
@@ -76,7 +76,7 @@ class Asking:
         self._kept: dict[str, _Kept] = {}
         self._lock = threading.Lock()
 
-    def make(self, row: JobRow, should_stop: Callable[[], bool]) -> Asked:
+    def make(self, row: JobRow, should_stop: Callable[[], bool]) -> JobTask:
         """Return what a job asks for.
 
         Raises
@@ -90,12 +90,12 @@ class Asking:
         """
         return asked_of(self._read(row), self._search_threads, self._roads, should_stop)
 
-    def keep(self, job_id: str, asked: Asked, now: float) -> None:
+    def keep(self, job_id: str, asked: JobTask, now: float) -> None:
         """Keep what a job asks for, as others will need it. In place."""
         with self._lock:
             self._kept.setdefault(job_id, _Kept(threading.Lock(), now, asked)).used_at = now
 
-    def shared(self, row: JobRow, should_stop: Callable[[], bool], now: float) -> Asked:
+    def shared(self, row: JobRow, should_stop: Callable[[], bool], now: float) -> JobTask:
         """Return what a job asks for, made before if it was; raises as `make` does. In place."""
         with self._lock:
             kept = self._kept.setdefault(row.id, _Kept(threading.Lock(), now))

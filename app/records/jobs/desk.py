@@ -8,7 +8,7 @@ from anyio import CapacityLimiter, to_thread
 from sqlalchemy.exc import SQLAlchemyError
 
 from app.maps.airspace.zone import Zone
-from app.plans.pictures.scene import Scene
+from app.plans.pictures.scene import DrawnPlan
 from app.records.jobs.errors import JobsUnavailableError
 from app.records.jobs.events import Watcher
 from app.records.jobs.queues import Queues
@@ -78,4 +78,4 @@ def _drawn(request: PlanRequest, plan: bytes, zones: Sequence[Zone]) -> bytes:
     # Imported here: the service needn't wait for matplotlib at its start.
     from app.plans.pictures.drawing import draw_svg
 
-    return draw_svg(Scene.replied(request, plan, zones))
+    return draw_svg(DrawnPlan.replied(request, plan, zones))

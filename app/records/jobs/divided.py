@@ -16,7 +16,7 @@ import numpy as np
 from pydantic_core import from_json
 
 from app.plans.replies import Data
-from app.records.jobs.asked import Asking
+from app.records.jobs.asked import TaskMaker
 from app.records.jobs.incumbent import Incumbent
 from app.records.jobs.region_task import ERRANDS, Errand, found_by
 from app.records.jobs.rounds import Rounds, num_regions
@@ -64,7 +64,7 @@ class DividedWork:
         Tells the time in seconds.
     """
 
-    def __init__(self, store: JobStore, asking: Asking, terms: RegionTerms,
+    def __init__(self, store: JobStore, asking: TaskMaker, terms: RegionTerms,
                  add: Callable[[Sequence[NewJob]], bool],
                  stop_jobs: Callable[[Sequence[JobRow]], None], returning: Returning,
                  is_aside: Callable[[str], bool], on_plan: Callable[[Data], None],

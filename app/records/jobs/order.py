@@ -14,7 +14,7 @@ from app.records.jobs.asked import asked_of
 from app.records.jobs.reading import JobReader, request_of
 from app.records.jobs.region_task import RegionTask
 from app.records.jobs.rows import Standing
-from app.records.jobs.running import Begun, RegionTerms
+from app.records.jobs.running import RegionTerms, RunningJob
 from app.records.jobs.schemas import Kind
 from app.records.jobs.search import EarlierWork, Find, Search
 from app.records.jobs.slices import SLICE
@@ -36,15 +36,15 @@ class WholeJob:
     position: int  # among the study's scenarios
     terms: RegionTerms
 
-    def begun(self, place: Workplace, should_stop: ShouldStop) -> Begun:
+    def begun(self, place: Workplace, should_stop: ShouldStop) -> RunningJob:
         """Return what is to be done; raises as `asked_of` and `request_of` do."""
         service = place.service
         request = request_of(self.body, self.study, self.position, service.planner.policies)
         asked = asked_of(request, place.settings.search_threads, service.roads, should_stop)
         if not self.terms.divides(asked):
-            return Begun(asked.task, asked.options)
+            return RunningJob(asked.task, asked.options)
         first = replace(asked.options, time_limit=self.terms.seconds)
-        return Begun(asked.task, first, self.terms.seconds / asked.options.time_limit)
+        return RunningJob(asked.task, first, self.terms.seconds / asked.options.time_limit)
 
 
 @dataclass(frozen=True)
@@ -54,9 +54,9 @@ class RegionOfJob:
     task: RegionTask
     options: PlanOptions
 
-    def begun(self, place: Workplace, should_stop: ShouldStop) -> Begun:
+    def begun(self, place: Workplace, should_stop: ShouldStop) -> RunningJob:
         """Return what is to be done."""
-        return Begun(self.task, self.options)
+        return RunningJob(self.task, self.options)
 
 
 @dataclass(frozen=True)
@@ -71,7 +71,7 @@ class Order:
 
 
 @dataclass(frozen=True)
-class Outcome:
+class SearchOutcome:
     """What a search came to."""
 
     standing: Standing
@@ -85,7 +85,7 @@ def validate(place: Workplace, kind: Kind, body: bytes, should_stop: ShouldStop)
         kind, body, should_stop)
 
 
-def work_on(place: Workplace, order: Order, should_stop: ShouldStop) -> Outcome:
+def work_on(place: Workplace, order: Order, should_stop: ShouldStop) -> SearchOutcome:
     """Plan a job until its end, or until told to stop, and tell meanwhile how far it has come.
 
     Raises
@@ -109,7 +109,7 @@ def work_on(place: Workplace, order: Order, should_stop: ShouldStop) -> Outcome:
 class _Work:
     """A search, and what is told of it."""
 
-    def __init__(self, place: Workplace, order: Order, begun: Begun, validated: float,
+    def __init__(self, place: Workplace, order: Order, begun: RunningJob, validated: float,
                  should_stop: ShouldStop) -> None:
         self._order = order
         self._share = begun.share
@@ -130,11 +130,11 @@ class _Work:
             self._best = reply
         return self._standing(reply)
 
-    def outcome(self) -> Outcome:
+    def outcome(self) -> SearchOutcome:
         """Return what the search came to; raises what ended it."""
         reply = self._better(self.search.reply())
         is_whole = isinstance(self._order.subject, WholeJob)
-        return Outcome(self._standing(reply), countable(reply) if is_whole else None)
+        return SearchOutcome(self._standing(reply), countable(reply) if is_whole else None)
 
     def _better(self, reply: Data) -> Data:
         """Return a reply, with the best plan told if that is cheaper by a hair."""

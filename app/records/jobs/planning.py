@@ -9,14 +9,14 @@ from dataclasses import replace
 from typing import Any, Protocol
 
 from app.records.clock import now_ms
-from app.records.jobs.asked import Asking
+from app.records.jobs.asked import TaskMaker
 from app.records.jobs.order import (
-    BEGUN, STANDING, Order, Outcome, RegionOfJob, WholeJob, work_on,
+    BEGUN, STANDING, Order, RegionOfJob, SearchOutcome, WholeJob, work_on,
 )
 from app.records.jobs.reading import stated
 from app.records.jobs.region_task import ERRANDS, RegionTask
 from app.records.jobs.rows import JobRow, Standing
-from app.records.jobs.running import RegionTerms, Returning, Running, Told, sign_of_life
+from app.records.jobs.running import JobNews, RegionTerms, Returning, Running, sign_of_life
 from app.records.jobs.schemas import State
 from app.records.jobs.slices import (
     DEADLY, MAX_CRASHES, MAX_DEATHS, NOT_COMPUTED, OVER, POISONOUS, SLICE, WITHHELD, Slice,
@@ -72,7 +72,7 @@ class PlanWork:
         Which jobs are planned by regions, after their first plan.
     """
 
-    def __init__(self, begin: Begin, store: JobStore, asking: Asking, returning: Returning,
+    def __init__(self, begin: Begin, store: JobStore, asking: TaskMaker, returning: Returning,
                  on_plan: Callable[[Mapping[str, Any]], None], terms: RegionTerms) -> None:
         self._begin_call = begin
         self._store = store
@@ -157,7 +157,7 @@ class PlanWork:
         if row is None:
             return None
         cancelled = self._beginning[job_id] = threading.Event()
-        should_stop, told = sign_of_life(self._store, row, cancelled, self._stopping), Told()
+        should_stop, told = sign_of_life(self._store, row, cancelled, self._stopping), JobNews()
 
         def hear_standing(standing: Standing) -> None:
             told.standing = standing
@@ -184,7 +184,7 @@ class PlanWork:
                        row.search_iterations)
 
     def _order(self, row: JobRow, should_stop: Callable[[], bool]) -> Order:
-        """Return what is to be done for a job; raises as `Asking.make` does."""
+        """Return what is to be done for a job; raises as `TaskMaker.make` does."""
         kept = (row.created_at, row.searched, row.search_iterations, self._store.result(row.id))
         if row.kind != "region":
             return Order(WholeJob(*stated(self._store, row), self._terms), *kept)
@@ -316,7 +316,7 @@ class PlanWork:
         """
         row = running.row
         try:
-            outcome: Outcome = running.call.result()
+            outcome: SearchOutcome = running.call.result()
         except EndedUnexpectedlyError:
             self._bear_death(row)
         except StoppedError:
@@ -336,7 +336,7 @@ class PlanWork:
             return self._finish(running, outcome)
         return True
 
-    def _finish(self, running: Running, outcome: Outcome) -> bool:
+    def _finish(self, running: Running, outcome: SearchOutcome) -> bool:
         """Write down what a job came to; tell whether this ended it. In place.
 
         Raises

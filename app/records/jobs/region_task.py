@@ -8,7 +8,7 @@ from app.plans.replies import Data
 from model.judge.check import Evaluation, check
 from model.planner import ALONE, Listener, Planner, PlanOptions, PlanResult
 from model.problem import Problem
-from model.search.regions.part import Part, part_of
+from model.search.regions.part import RegionProblem, part_of
 from model.search.regions.region import Region
 from model.solution import Solution
 
@@ -31,7 +31,7 @@ PLANS = TypeAdapter(Solution)
 class RegionTask:
     """A region as a search takes it; its plans are told in the numbers of the whole problem."""
 
-    part: Part
+    part: RegionProblem
     begun: Solution
     far: None = None
     replanning: None = None

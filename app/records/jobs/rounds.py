@@ -9,7 +9,7 @@ from pydantic_core import to_json
 
 from app.plans.replies import Data
 from app.records.clock import now_ms
-from app.records.jobs.asked import Asked
+from app.records.jobs.asked import JobTask
 from app.records.jobs.incumbent import Incumbent
 from app.records.jobs.rows import JobRow, Standing
 from app.records.jobs.search import NEARLY_OVER
@@ -45,7 +45,7 @@ class Rounds:
         The time on `time.monotonic`.
     """
 
-    def __init__(self, row: JobRow, asked: Asked, best: Incumbent, reply: Data,
+    def __init__(self, row: JobRow, asked: JobTask, best: Incumbent, reply: Data,
                  regions: Sequence[JobRow], now: float) -> None:
         self.row = row
         self.asked = asked

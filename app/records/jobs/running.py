@@ -5,7 +5,7 @@ import time
 from collections.abc import Callable
 from dataclasses import dataclass
 
-from app.records.jobs.asked import Asked
+from app.records.jobs.asked import JobTask
 from app.records.jobs.rows import JobRow, Standing
 from app.records.jobs.search import Plannable
 from app.records.jobs.slices import SLICE
@@ -45,7 +45,7 @@ class RegionTerms:
     customers: int  # of a region, about
     seconds: float  # of its search
 
-    def divides(self, asked: Asked) -> bool:
+    def divides(self, asked: JobTask) -> bool:
         """Tell whether a job is planned by regions.
 
         Not one whose legs or places are only known by asking others, or that goes on from a plan,
@@ -64,7 +64,7 @@ class RegionTerms:
 
 
 @dataclass
-class Told:
+class JobNews:
     """What was told of a job since somebody looked."""
 
     share: float | None = None  # of the job's time that is searched now; None: it isn't yet
@@ -72,7 +72,7 @@ class Told:
 
 
 @dataclass(frozen=True)
-class Begun:
+class RunningJob:
     """What is to be done for a job."""
 
     task: Plannable
@@ -88,7 +88,7 @@ class Running:
     call: Call
     cancelled: threading.Event
     should_stop: Callable[[], bool]  # gives signs of life, too
-    told: Told
+    told: JobNews
     has_waited: bool  # for what it needed before it could begin
     cost: float | None  # of the best plan written down
     iterations: int

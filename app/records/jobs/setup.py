@@ -13,7 +13,7 @@ from sqlalchemy.exc import SQLAlchemyError
 from app.database.connections import close_for_good
 from app.database.durable import connect
 from app.plans.desk import PlanDesk
-from app.records.jobs.asked import Asking
+from app.records.jobs.asked import TaskMaker
 from app.records.jobs.desk import JobDesk
 from app.records.jobs.divided import DividedWork
 from app.records.jobs.housekeeping import Housekeeper
@@ -63,7 +63,7 @@ def running_jobs(settings: Settings, planning: PlanDesk, metrics: Metrics,
     store = JobStore(queues.engine, int(settings.job_expiry_hours * HOUR_MS), queues.add_webhook,
                      metrics.count_finished_job)
     reader = JobReader(planning.policies, settings, roads)
-    asking = Asking(partial(reader.plan_request, store), settings.search_threads, roads)
+    asking = TaskMaker(partial(reader.plan_request, store), settings.search_threads, roads)
     returning = Returning(*(partial(queues.put, queue=queue)
                             for queue in (PLANS, WAITING, DIVIDED)))
     terms = RegionTerms(settings.region_from, settings.region_customers, settings.region_seconds)

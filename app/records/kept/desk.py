@@ -9,7 +9,7 @@ from typing import TypeVar
 from app.database.connections import close_for_good
 from app.database.durable import connect
 from app.records.kept.errors import KeptUnavailableError
-from app.records.kept.rows import Room
+from app.records.kept.rows import KeptRoom
 from app.records.kept.store import KeptStore
 from app.records.threads import DatabaseThreads
 from app.serving.settings import Settings
@@ -56,8 +56,8 @@ class KeptDesk:
 def keeping_plans(settings: Settings) -> Iterator[KeptDesk]:
     """Yield where endpoints turn to; the database is open until the block ends."""
     days = settings.kept_plan_days
-    room = Room(settings.max_kept_plans, settings.max_kept_bytes,
-                None if days is None else int(days * DAY_MS))
+    room = KeptRoom(settings.max_kept_plans, settings.max_kept_bytes,
+                    None if days is None else int(days * DAY_MS))
     engine = connect(settings.database)
     try:
         yield KeptDesk(KeptStore(engine, room))

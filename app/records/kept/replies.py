@@ -4,7 +4,7 @@ from typing import Any
 
 from pydantic_core import to_json
 
-from app.records.kept.rows import KeptRow, LinkRow, Room
+from app.records.kept.rows import KeptRoom, KeptRow, LinkRow
 from app.schemas.instants import instant_of
 from app.serving.access.tokens import NewToken
 
@@ -12,17 +12,17 @@ CONSOLE_PATH = "/#shared="
 """Where the console shows a plan, the token behind it: browsers send it to nobody."""
 
 
-def summary(row: KeptRow, room: Room) -> bytes:
+def summary(row: KeptRow, room: KeptRoom) -> bytes:
     """Return a plan without its content."""
     return to_json(_summary(row, room))
 
 
-def whole(row: KeptRow, body: bytes, room: Room) -> bytes:
+def whole(row: KeptRow, body: bytes, room: KeptRoom) -> bytes:
     """Return a plan with its content, which is JSON already."""
     return _joined(_summary(row, room), body)
 
 
-def page(rows: list[KeptRow], more: str | None, room: Room) -> bytes:
+def page(rows: list[KeptRow], more: str | None, room: KeptRoom) -> bytes:
     """Return plans without their content, and where the next page begins."""
     return to_json({"plans": [_summary(row, room) for row in rows], "next": more})
 
@@ -43,7 +43,7 @@ def shared(row: KeptRow, body: bytes) -> bytes:
                    body)
 
 
-def _summary(row: KeptRow, room: Room) -> dict[str, Any]:
+def _summary(row: KeptRow, room: KeptRoom) -> dict[str, Any]:
     ends = None if room.expiry is None else instant_of(row.changed_at + room.expiry)
     return {"id": row.id, "name": row.name, "note": row.note, "version": row.version,
             "created_at": instant_of(row.created_at), "changed_at": instant_of(row.changed_at),

@@ -43,7 +43,7 @@ class Content:
 
 
 @dataclass(frozen=True)
-class Room:
+class KeptRoom:
     """How much is kept for each owner, and for how long."""
 
     plans: int

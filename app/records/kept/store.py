@@ -15,7 +15,7 @@ from app.records.clock import now_ms
 from app.records.kept.errors import (
     ChangedError, NoRoomError, UnknownLinkError, UnknownPlanError, VersionNeededError,
 )
-from app.records.kept.rows import Content, KeptRow, LinkRow, Precondition, Room
+from app.records.kept.rows import Content, KeptRoom, KeptRow, LinkRow, Precondition
 from app.serving.access.tokens import NO_DIGEST, NewToken, TokenKind, is_token
 
 SHARE = TokenKind("share")
@@ -37,7 +37,7 @@ class KeptStore:
         How much may be kept.
     """
 
-    def __init__(self, engine: Engine, room: Room) -> None:
+    def __init__(self, engine: Engine, room: KeptRoom) -> None:
         self.engine = engine
         self.room = room
 

@@ -7,8 +7,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from app.maps.airspace.applying import NEVER_ENDS, Span, closed_times
-from app.requests.conversion.zones import Met, Part
+from app.maps.airspace.applying import NEVER_ENDS, PlannedSpan, closed_times
+from app.requests.conversion.zones import Met, ZoneVolume
 from app.schemas.day import Day
 from model.problem import MAX_CLOSINGS, UNLIMITED, Closings, IntArray
 
@@ -24,7 +24,7 @@ class Hours(NamedTuple):
     """Zones with the same hours that hold some places."""
 
     times: Times
-    parts: frozenset[Part]
+    parts: frozenset[ZoneVolume]
 
 
 class Closed(NamedTuple):
@@ -37,8 +37,8 @@ class Closed(NamedTuple):
 
     def open_to(self, zones: int) -> Met:
         """Return what is met while some of the zones with hours are open."""
-        opened = frozenset[Part]().union(*[each.parts for bit, each in enumerate(self.hours)
-                                           if zones >> bit & 1])
+        opened = frozenset[ZoneVolume]().union(*[each.parts for bit, each in enumerate(self.hours)
+                                                 if zones >> bit & 1])
         return Met(*(tuple(part for part in parts if part not in opened) for parts in self.met))
 
     def together(self) -> list[int]:
@@ -60,7 +60,7 @@ class Closed(NamedTuple):
                              for begin, end in times]))
 
 
-def times_closed(part: Part, day: Day | None, span: Span | None) -> Times | None:
+def times_closed(part: ZoneVolume, day: Day | None, span: PlannedSpan | None) -> Times | None:
     """Return when a zone is closed to flights; None: whenever the plan lasts, and ever after."""
     if day is None or span is None or not part.zone.is_timed:
         return None

@@ -17,7 +17,7 @@ from app.requests.conversion.places import PlacedRequest
 from app.requests.conversion.preparing import UNHURRIED, Preparing
 from app.requests.conversion.rounding import ROUNDINGS
 from app.requests.conversion.work import merging_seconds, sights_seconds
-from app.requests.conversion.zones import Met, Part, ZonesMet, span_of
+from app.requests.conversion.zones import Met, ZoneVolume, ZonesMet, span_of
 from app.schemas.fields import point_of
 from app.schemas.wind import WindInput
 from model.problem import MAX_TIMED_ZONES, FloatArray, IntArray, Points
@@ -168,7 +168,7 @@ class Ground:
         return self._closed[met]
 
     def _closed_by(self, met: Met, first_bit: int) -> Closed:
-        by_times: dict[Times, set[Part]] = {}
+        by_times: dict[Times, set[ZoneVolume]] = {}
         for part in (*met.around, *met.over):
             times = times_closed(part, self._request.day, self.zones.span)
             if times:
@@ -184,7 +184,7 @@ class Ground:
                 zones[nodes] |= 1 << found.index(hours)
         return Closed(met, found, first_bit, zones)
 
-    def _holding(self, parts: Collection[Part]) -> IntArray:
+    def _holding(self, parts: Collection[ZoneVolume]) -> IntArray:
         """Return the places that lie in any of some zones, or too near to one."""
         areas = self._projected([*parts])
         found, _ = shapely.STRtree(areas).query(
@@ -262,17 +262,17 @@ class Ground:
         return (self._projection.project(points) if self.is_geographic
                 else points * self._request.planar_unit)
 
-    def zones_at(self, node: int, altitude: float) -> list[Part]:
+    def zones_at(self, node: int, altitude: float) -> list[ZoneVolume]:
         """Return the zones that keep drones at an altitude from a place."""
         return self._met_by(shapely.Point(self.points_m[node]), altitude, (True, True))
 
-    def metres_between(self, node: int, part: Part) -> float:
+    def metres_between(self, node: int, part: ZoneVolume) -> float:
         """Return how far a place lies from a zone; 0 in it, or so near that it counts as that."""
         area, = self._projected([part])
         metres = area.distance(shapely.Point(self.points_m[node]))
         return metres if metres > WIDER_M else 0.0
 
-    def times_of(self, part: Part) -> Times:
+    def times_of(self, part: ZoneVolume) -> Times:
         """Return when a zone with hours is closed that holds places; none of others."""
         return next((hours.times for closed in self._closed.values() for hours in closed.hours
                      if part in hours.parts), ())
@@ -285,13 +285,13 @@ class Ground:
         return {number: metres for number, area in enumerate(areas)
                 if (metres := area.distance(at)) <= within}
 
-    def zones_between(self, start: int, end: int, altitude: float) -> list[Part]:
+    def zones_between(self, start: int, end: int, altitude: float) -> list[ZoneVolume]:
         """Return the zones that a straight flight between two places would meet, from its start."""
         line = shapely.LineString(self.points_m[[start, end]])
         return self._met_by(line, altitude, (True, False))
 
     def _met_by(self, what: BaseGeometry, altitude: float,
-                looked_at: tuple[bool, bool]) -> list[Part]:
+                looked_at: tuple[bool, bool]) -> list[ZoneVolume]:
         parts = [part for met, asked in zip(self.zones.at(altitude), looked_at, strict=True)
                  if asked for part in met]
         areas = self._projected(parts)
@@ -348,7 +348,7 @@ class Ground:
         farthest = float(np.hypot(*self.points_m.T).max()) if self.is_geographic else None
         return planar_buffers(areas, self._request.airspace.buffer, farthest)
 
-    def _projected(self, parts: Sequence[Part]) -> list[Polygon]:
+    def _projected(self, parts: Sequence[ZoneVolume]) -> list[Polygon]:
         """Return the areas of zones on the plane; nothing of those on the other side of the globe.
 
         What lies around the antipode would lie around all else.

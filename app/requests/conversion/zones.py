@@ -5,16 +5,16 @@ from functools import cached_property
 from typing import NamedTuple
 from weakref import finalize
 
-from app.maps.airspace.applying import NEVER_ENDS, Span, applies
+from app.maps.airspace.applying import NEVER_ENDS, PlannedSpan, applies
 from app.maps.airspace.faults import Reading
 from app.maps.airspace.reading import read_zones
-from app.maps.airspace.zone import Ground, Volume, Zone
+from app.maps.airspace.zone import GroundHeights, Volume, Zone
 from app.schemas.request import PlanRequest
 from app.schemas.vehicle import VehicleTypeInput
 from app.schemas.airspace import Zones
 
 
-class Part(NamedTuple):
+class ZoneVolume(NamedTuple):
     """A volume of a zone."""
 
     zone: Zone
@@ -24,14 +24,14 @@ class Part(NamedTuple):
 class Met(NamedTuple):
     """What drones meet at an altitude."""
 
-    around: tuple[Part, ...]  # flown around
-    over: tuple[Part, ...]  # flown over, but nobody takes off or lands in them
+    around: tuple[ZoneVolume, ...]  # flown around
+    over: tuple[ZoneVolume, ...]  # flown over, but nobody takes off or lands in them
 
 
 NOTHING_MET = Met((), ())
 
 
-def span_of(request: PlanRequest) -> Span | None:
+def span_of(request: PlanRequest) -> PlannedSpan | None:
     """Return from when until when vehicles with drones work; None: that isn't known."""
     day = request.day
     shifts = [(kind.shift.earliest, _latest(kind)) for kind in request.fleet
@@ -39,9 +39,9 @@ def span_of(request: PlanRequest) -> Span | None:
     if day is None or not shifts:
         return None
     latest = [end for _, end in shifts]
-    return Span(day.instant(min(begin for begin, _ in shifts)),
-                NEVER_ENDS if None in latest
-                else day.instant(max(end for end in latest if end is not None)))
+    return PlannedSpan(day.instant(min(begin for begin, _ in shifts)),
+                       NEVER_ENDS if None in latest
+                       else day.instant(max(end for end in latest if end is not None)))
 
 
 def _latest(kind: VehicleTypeInput) -> float | None:
@@ -94,8 +94,9 @@ class ZonesMet:
             return NOTHING_MET
         if altitude not in self._met:
             stated = self._request.airspace.ground
-            ground = Ground() if stated is None else Ground(stated.lowest, stated.highest)
-            reached = [Part(zone, volume) for zone in self._closed for volume in zone.volumes
+            ground = (GroundHeights() if stated is None
+                      else GroundHeights(stated.lowest, stated.highest))
+            reached = [ZoneVolume(zone, volume) for zone in self._closed for volume in zone.volumes
                        if not volume.is_above(altitude, ground)]
             below = [part.volume.is_far or part.volume.is_below(altitude, ground)
                      for part in reached]

@@ -37,7 +37,7 @@ LEAST_MILLISECONDS, MOST_MILLISECONDS = 1e7, 2 * DAY * 1000
 """Seconds in which windows end, half of them, that look like milliseconds."""
 
 
-class Unit(NamedTuple):
+class MistakenUnit(NamedTuple):
     """What seconds may be mistaken for."""
 
     name: str
@@ -45,8 +45,8 @@ class Unit(NamedTuple):
     step: float  # what times of day are multiples of
 
 
-HOURS = Unit("hours", 3600.0, 0.25)
-MINUTES = Unit("minutes", 60.0, 5.0)
+HOURS = MistakenUnit("hours", 3600.0, 0.25)
+MINUTES = MistakenUnit("minutes", 60.0, 5.0)
 
 
 def time_warnings(survey: Survey) -> Warnings:
@@ -68,7 +68,7 @@ def time_warnings(survey: Survey) -> Warnings:
         yield from _endurance(index, kind)
 
 
-def _windows_unit(survey: Survey) -> Unit | None:
+def _windows_unit(survey: Survey) -> MistakenUnit | None:
     """Return what windows are stated in, if hardly in seconds."""
     has_end = survey.has_end
     if not has_end.any():
@@ -88,17 +88,17 @@ def _windows_unit(survey: Survey) -> Unit | None:
     return unit if survey.is_lifelike and round_times and is_day and opens.mean() >= 0.5 else None
 
 
-def _unit_of(longest: float) -> Unit | None:
+def _unit_of(longest: float) -> MistakenUnit | None:
     if longest <= MOST_HOURS:
         return HOURS
     return MINUTES if longest <= MOST_MINUTES else None
 
 
-def _round(times: FloatArray, unit: Unit) -> BoolArray:
+def _round(times: FloatArray, unit: MistakenUnit) -> BoolArray:
     return np.abs(times / unit.step - np.round(times / unit.step)) < 1e-9
 
 
-def _windows(survey: Survey, unit: Unit) -> Warnings:
+def _windows(survey: Survey, unit: MistakenUnit) -> Warnings:
     index = int(survey.has_end.argmax())
     earliest, latest = float(survey.earliest[index]), float(survey.latest[index])
     count = customers_text(int(survey.has_end.sum()), len(survey.customers), "have", "has")
@@ -204,7 +204,7 @@ def _shift(survey: Survey, index: int, kind: VehicleTypeInput) -> Warnings:
             "that is meant.")
 
 
-def _is_clock(earliest: float, unit: Unit) -> bool:
+def _is_clock(earliest: float, unit: MistakenUnit) -> bool:
     """Tell whether a shift begins at an hour when people begin to work, in a unit."""
     return FOUR_OCLOCK * 3600 <= earliest * unit.seconds < DAY and bool(
         _round(np.array([earliest]), unit)[0])

@@ -17,7 +17,7 @@ from app.schemas.errors import RequestError
 from app.serving.access.keys import (
     LAST_USED_STEP, SCOPES, Keys, KeyStore, Scope, StoredKey, find_key,
 )
-from app.serving.access.limits import Limits, client_address
+from app.serving.access.limits import RequestCounter, client_address
 
 logger = logging.getLogger(__name__)
 
@@ -82,7 +82,7 @@ class Guard:
         How often anybody may ask, and fail.
     """
 
-    def __init__(self, store: KeyStore | None, limits: Limits) -> None:
+    def __init__(self, store: KeyStore | None, limits: RequestCounter) -> None:
         self._store = store
         self.limits = limits
         self._keys: Keys = {}

@@ -30,7 +30,7 @@ class TooManyRequestsError(RequestError, status=429, name="too-many-requests",
 
 
 @dataclass(frozen=True)
-class Rates:
+class RateLimits:
     """Requests a minute; 0: no limit."""
 
     plans: int = 0
@@ -39,13 +39,13 @@ class Rates:
     drivers: int = 0  # of one driver's link
 
 
-class Limits:
+class RequestCounter:
     """Counts requests, in this process alone.
 
     The counts slide from one minute to the next: two numbers a key, however many requests.
     """
 
-    def __init__(self, rates: Rates) -> None:
+    def __init__(self, rates: RateLimits) -> None:
         self._limiter = SlidingWindowCounterRateLimiter(MemoryStorage())
         stated: dict[Scope, int] = {"plan": rates.plans, "jobs": rates.jobs}
         self._by_scope: dict[Scope, RateLimitItem] = {

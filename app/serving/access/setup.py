@@ -13,7 +13,7 @@ from app.serving.access.guard import Guard
 from app.serving.access.headers import SecurityHeaders
 from app.serving.access.hosts import ANY, TrustedHosts, is_loopback
 from app.serving.access.keys import KeyStore
-from app.serving.access.limits import Limits, Rates
+from app.serving.access.limits import RateLimits, RequestCounter
 from app.serving.settings import Settings
 
 METHODS = ("GET", "POST", "PUT", "PATCH", "DELETE")
@@ -44,9 +44,9 @@ def check_exposure(settings: Settings, host: str) -> None:
 @contextmanager
 def guarding(settings: Settings) -> Iterator[Guard]:
     """Yield the guard that the settings ask for; its database is open until the block ends."""
-    limits = Limits(Rates(settings.plans_per_minute, settings.jobs_per_minute,
-                          settings.wrong_keys_per_minute,
-                          settings.driver_requests_per_minute))
+    limits = RequestCounter(RateLimits(settings.plans_per_minute, settings.jobs_per_minute,
+                                       settings.wrong_keys_per_minute,
+                                       settings.driver_requests_per_minute))
     if settings.access != "keys":
         yield Guard(None, limits)
         return

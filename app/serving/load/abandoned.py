@@ -34,7 +34,7 @@ class AbandonedError(RequestError):
 
 
 @dataclass(frozen=True)
-class Turns:
+class WaitingTurns:
     """Where requests wait for their turn, and the threads for those whose turn it is."""
 
     admission: Admission
@@ -94,7 +94,7 @@ class Turns:
 async def watching(request: Request) -> AsyncIterator[Callable[[], bool]]:
     """Yield what tells whether a client has left whose body has been read, or the process ends."""
     gone = threading.Event()
-    turns: Turns = request.app.state.turns
+    turns: WaitingTurns = request.app.state.turns
     watcher = asyncio.create_task(_watch(request, gone, anyio.CancelScope()))
     try:
         yield lambda: gone.is_set() or turns.shutdown.has_begun
@@ -110,9 +110,9 @@ async def _watch(request: Request, gone: threading.Event, waiting: anyio.CancelS
     waiting.cancel()
 
 
-async def take_place(request: Request) -> Turns:
+async def take_place(request: Request) -> WaitingTurns:
     """Refuse a request while nothing was spent on it, if its turn can't come."""
-    turns: Turns = request.app.state.turns
+    turns: WaitingTurns = request.app.state.turns
     try:
         turns.admission.refuse_if_full()
     except OverloadedError as error:
@@ -125,5 +125,5 @@ async def take_place(request: Request) -> Turns:
     return turns
 
 
-Planning = Annotated[Turns, Depends(take_place)]
+Planning = Annotated[WaitingTurns, Depends(take_place)]
 """For endpoints that compute plans: before the body, so that it isn't read in vain."""

@@ -5,7 +5,7 @@ import multiprocessing
 from anyio import CapacityLimiter
 from fastapi import FastAPI
 
-from app.serving.load.abandoned import Turns
+from app.serving.load.abandoned import WaitingTurns
 from app.serving.load.admission import Admission
 from app.serving.load.bodies import Bodies
 from app.serving.load.readings import new_readings
@@ -32,9 +32,9 @@ def prepare_for_load(app: FastAPI, settings: Settings) -> Shutdown:
     admission = Admission(settings.max_concurrent_plans, settings.max_queued_plans,
                           settings.max_queue_seconds)
     # Threads of their own, so that no other endpoint's use of threads delays a plan.
-    state.turns = Turns(admission, CapacityLimiter(settings.max_concurrent_plans),
-                        state.shutdown, state.metrics,
-                        shares_port=multiprocessing.parent_process() is not None)
+    state.turns = WaitingTurns(admission, CapacityLimiter(settings.max_concurrent_plans),
+                               state.shutdown, state.metrics,
+                               shares_port=multiprocessing.parent_process() is not None)
     state.readings = new_readings()
     app.add_middleware(ShutdownGate, shutdown=state.shutdown)
     return state.shutdown

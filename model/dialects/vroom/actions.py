@@ -4,9 +4,9 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from model.dialects.vroom.kinds import Kind
+from model.dialects.vroom.kinds import VehicleKind
 from model.dialects.vroom.nodes import Nodes
-from model.dialects.vroom.places import Places
+from model.dialects.vroom.places import Sites
 from model.dialects.vroom.request import Request
 from model.dialects.vroom.timing import service_of, setup_of
 from model.problem import IntArray
@@ -25,7 +25,7 @@ class Actions:
     a part of its way there.
     """
 
-    def __init__(self, request: Request, places: Places, kinds: tuple[Kind, ...],
+    def __init__(self, request: Request, places: Sites, kinds: tuple[VehicleKind, ...],
                  nodes: Nodes, is_timed: bool, relaxed: bool) -> None:
         self._nodes = nodes
         types = dict.fromkeys(kind.type for kind in kinds)
@@ -58,11 +58,11 @@ class Actions:
         """Return in how many ways vehicles serve the jobs."""
         return len({self.service(name).tobytes() for name in self._service})
 
-    def delays(self, kind: Kind) -> bool:
+    def delays(self, kind: VehicleKind) -> bool:
         """Tell whether a kind's setup somewhere is more than others'."""
         return bool((self._before[kind.type] > self.setup).any())
 
-    def beside_travel(self, kind: Kind) -> IntArray:
+    def beside_travel(self, kind: VehicleKind) -> IntArray:
         """Return (node, node) what legs take more, since a kind's setup is more than others'."""
         more = self._before[kind.type] - self.setup
         depots, number = len(self._nodes.depots), len(self._nodes.sites)
@@ -70,7 +70,7 @@ class Actions:
         beside[:, depots:] = more * self._nodes.changes_place()
         return beside
 
-    def spent(self, kind: Kind) -> IntArray:
+    def spent(self, kind: VehicleKind) -> IntArray:
         """Return (node, node) the time for setup and service that a leg leads to."""
         depots, number = len(self._nodes.depots), len(self._nodes.sites)
         spent = np.zeros((number, number), np.int64)

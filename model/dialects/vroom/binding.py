@@ -5,15 +5,15 @@ from functools import cache
 
 import numpy as np
 
-from model.dialects.vroom.kinds import Kind
-from model.dialects.vroom.places import Places
+from model.dialects.vroom.kinds import VehicleKind
+from model.dialects.vroom.places import Sites
 from model.dialects.vroom.request import Request, Window
 from model.dialects.vroom.timing import service_of, setup_of
 from model.dialects.vroom.windows import MISSED, TIME_SCALE, slots_of, start_in
 from model.problem import IntArray
 
 
-def windows_bind(request: Request, places: Places, kinds: Sequence[Kind]) -> bool:
+def windows_bind(request: Request, places: Sites, kinds: Sequence[VehicleKind]) -> bool:
     """Tell whether some route may have to wait, or to be over sooner, for a time window's sake.
 
     It has not where one instant is so long before windows close that the longest of all routes,
@@ -30,7 +30,7 @@ def windows_bind(request: Request, places: Places, kinds: Sequence[Kind]) -> boo
     return any(_binds(longest, kind, opens, closes) for kind in kinds)
 
 
-def _binds(longest: "_Longest", kind: Kind, opens: int, closes: int | None) -> bool:
+def _binds(longest: "_Longest", kind: VehicleKind, opens: int, closes: int | None) -> bool:
     if any(each.max_load is not None for each in kind.stated.breaks):
         return True
     shift, rested = kind.stated.time_window, _rested(kind)
@@ -42,7 +42,7 @@ def _binds(longest: "_Longest", kind: Kind, opens: int, closes: int | None) -> b
     return bool(ends) and (begin * TIME_SCALE + longest.route(kind) > min(ends) * TIME_SCALE)
 
 
-def _rested(kind: Kind) -> int | None:
+def _rested(kind: VehicleKind) -> int | None:
     """Return when a kind's breaks can be over before anything else is done; None: not at all."""
     time, closes = (0, None) if kind.stated.time_window is None else kind.stated.time_window
     for each in kind.stated.breaks:
@@ -56,13 +56,13 @@ def _rested(kind: Kind) -> int | None:
 class _Longest:
     """How long routes take at most; what many kinds of vehicles have in common is summed once."""
 
-    def __init__(self, request: Request, places: Places) -> None:
+    def __init__(self, request: Request, places: Sites) -> None:
         self._jobs = request.jobs
         self._places = places
         self._travel = cache(self._travel_by)
         self._spent = cache(self._spent_by)
 
-    def route(self, kind: Kind) -> int:
+    def route(self, kind: VehicleKind) -> int:
         """Return hundredths of a second that no route of a kind exceeds."""
         stated, rate = kind.stated, kind.rates.time
         travel = self._travel(stated.profile)

@@ -23,7 +23,7 @@ class Pause:
 
 
 @dataclass(frozen=True, slots=True)
-class Rest:
+class VroomRest:
     """A break as it is taken."""
 
     number: int  # index into the vehicle's breaks
@@ -35,7 +35,7 @@ class Rest:
 
 
 @dataclass(frozen=True)
-class Way:
+class GapsForBreaks:
     """A route to find breaks for: what lies in its gaps, and what behind each of them but the last.
     """
 
@@ -113,7 +113,7 @@ class Way:
         return best
 
     def drive(self, gap: int, leave: int, numbers: range,
-              starts: Sequence[int] = ()) -> tuple[int, list[Rest]]:
+              starts: Sequence[int] = ()) -> tuple[int, list[VroomRest]]:
         """Return the arrival behind a gap in which some breaks are taken, and those.
 
         They start as soon as they may, or by `starts` of all breaks.
@@ -125,8 +125,8 @@ class Way:
             driven = min(left, start - time)
             left -= driven
             # Who waits for the last of the way has arrived before.
-            rests.append(Rest(number, gap, time + driven, start, pause.duration,
-                              self.times[gap] - left))
+            rests.append(VroomRest(number, gap, time + driven, start, pause.duration,
+                                   self.times[gap] - left))
             time = start + pause.duration
         return time + left, rests
 

@@ -2,14 +2,14 @@
 
 from collections.abc import Iterator, Sequence
 
-from model.dialects.vroom.places import Places
+from model.dialects.vroom.places import Sites
 from model.dialects.vroom.request import Job, Request
-from model.dialects.vroom.timing import NO_WAY, Driver, TimedRoute, loads_on
+from model.dialects.vroom.timing import NO_WAY, RouteTimer, TimedVroomRoute, loads_on
 from model.dialects.vroom.windows import TIME_SCALE
 from model.planner import PlanCheckError
 
 
-def route_faults(request: Request, places: Places, vehicle: int,
+def route_faults(request: Request, places: Sites, vehicle: int,
                  jobs: Sequence[int]) -> Iterator[str]:
     """Yield what is wrong with the route of a vehicle through `jobs`, at least one.
 
@@ -32,7 +32,7 @@ def route_faults(request: Request, places: Places, vehicle: int,
         yield f"Route over capacity for vehicle {stated.id}."
     if stated.max_tasks is not None and len(jobs) > stated.max_tasks:
         yield f"Too many tasks for vehicle {stated.id}."
-    driver = Driver(request, places, vehicle)
+    driver = RouteTimer(request, places, vehicle)
     route = driver.drive(jobs)
     if route is None:
         missing = driver.missing_leg(jobs)
@@ -46,7 +46,7 @@ def route_faults(request: Request, places: Places, vehicle: int,
         yield f"Route over max_distance for vehicle {stated.id}."
 
 
-def drive(request: Request, places: Places, vehicle: int, jobs: Sequence[int]) -> TimedRoute:
+def drive(request: Request, places: Sites, vehicle: int, jobs: Sequence[int]) -> TimedVroomRoute:
     """Return the times of a route.
 
     Raises
@@ -55,7 +55,7 @@ def drive(request: Request, places: Places, vehicle: int, jobs: Sequence[int]) -
         If it breaks a rule.
     """
     faults = list(route_faults(request, places, vehicle, jobs))
-    route = Driver(request, places, vehicle).drive(jobs)
+    route = RouteTimer(request, places, vehicle).drive(jobs)
     if faults or route is None:
         raise PlanCheckError(" ".join(faults))
     return route

@@ -10,16 +10,16 @@ from model.dialects.vroom.actions import Actions
 from model.dialects.vroom.binding import windows_bind
 from model.dialects.vroom.drives import Drive, Drives
 from model.dialects.vroom.errors import RefusedError, TooLargeError
-from model.dialects.vroom.kinds import Kind, find_kinds, find_loads
+from model.dialects.vroom.kinds import VehicleKind, find_kinds, find_loads
 from model.dialects.vroom.models import Model
 from model.dialects.vroom.nodes import LONGEST, PARTS, Nodes
-from model.dialects.vroom.places import NOWHERE, Places
-from model.dialects.vroom.request import Job, Request, Vehicle, Window
+from model.dialects.vroom.places import NOWHERE, Sites
+from model.dialects.vroom.request import Job, Request, VroomVehicle, Window
 from model.dialects.vroom.rests import Rests
-from model.dialects.vroom.timing import NO_WAY, Driver
+from model.dialects.vroom.timing import NO_WAY, RouteTimer
 from model.dialects.vroom.windows import TIME_SCALE
 from model.dialects.vroom.work import (
-    UNHURRIED, LegLimit, Pause, Preparing, attempt_seconds, model_seconds,
+    UNHURRIED, LegLimit, Pause, VroomWork, attempt_seconds, model_seconds,
 )
 from model.problem import (
     MAX_QUANTITY, MM_PER_KM, MS_PER_HOUR, UNLIMITED, BoolArray, Break, Customer, Depot, FloatArray,
@@ -44,7 +44,7 @@ class Converter:
         If the request asks for what the planner can't do, or for too much.
     """
 
-    def __init__(self, request: Request, places: Places, max_legs: LegLimit) -> None:
+    def __init__(self, request: Request, places: Sites, max_legs: LegLimit) -> None:
         self._request = request
         self._max_legs = max_legs
         self._places = places
@@ -56,7 +56,7 @@ class Converter:
         self._windows = [self._reachable(self._stated(job)) for job in request.jobs]
         self._loads = find_loads(request, self.kinds)
 
-    def model(self, jobs: Sequence[int], preparing: Preparing = UNHURRIED) -> Model:
+    def model(self, jobs: Sequence[int], preparing: VroomWork = UNHURRIED) -> Model:
         """Return the problem of serving jobs, at least one.
 
         Where both it and a relaxed one are more than there is time for, it stands alone.
@@ -144,7 +144,7 @@ class Converter:
         stated = self.kinds[kind]
         if not stated.stated.breaks or not self._is_timed:
             return ()
-        route = Driver(self._request, self._places, stated.vehicles[0]).drive(jobs)
+        route = RouteTimer(self._request, self._places, stated.vehicles[0]).drive(jobs)
         if route is None:
             return ()
         gaps: dict[int, int] = {}
@@ -178,7 +178,7 @@ class Converter:
                    or max(seconds * kind.rates.time // TIME_SCALE, metres) > LONGEST
                    for kind in self.kinds for seconds, metres in [longest[kind.stated.profile]])
 
-    def _shift(self, kind: Kind) -> Window | None:
+    def _shift(self, kind: VehicleKind) -> Window | None:
         """Return when vehicles of a kind work, None if that makes no difference."""
         return kind.stated.time_window if self._is_timed else None
 
@@ -276,7 +276,7 @@ def name_of(job: Job) -> str:
     return str(job.id) if job.kind == "job" else f"{job.kind} {job.id}"
 
 
-def fixed_cost_of(vehicle: Vehicle) -> float:
+def fixed_cost_of(vehicle: VroomVehicle) -> float:
     """Return what using a vehicle costs: breaks count as tasks do."""
     rests = sum([each.service for each in vehicle.breaks])
     return vehicle.costs.fixed + vehicle.costs.per_task_hour * rests / 3600

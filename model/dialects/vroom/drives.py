@@ -14,9 +14,9 @@ import numpy as np
 
 from model.dialects.vroom.actions import Actions
 from model.dialects.vroom.errors import RefusedError
-from model.dialects.vroom.kinds import Kind
+from model.dialects.vroom.kinds import VehicleKind
 from model.dialects.vroom.nodes import LONGEST, PARTS, Nodes, at_most_longest
-from model.dialects.vroom.places import Legs, Places
+from model.dialects.vroom.places import ProfileLegs, Sites
 from model.dialects.vroom.request import Request
 from model.dialects.vroom.timing import COST_SCALE, NO_WAY
 from model.dialects.vroom.windows import TIME_SCALE
@@ -44,8 +44,9 @@ class Drive:
 class Drives:
     """Collects the matrices for a request; equal ones are built once."""
 
-    def __init__(self, request: Request, places: Places, kinds: tuple[Kind, ...], nodes: Nodes,
-                 is_timed: bool, relaxed: bool, pause: Pause = UNHURRIED.pause) -> None:
+    def __init__(self, request: Request, places: Sites, kinds: tuple[VehicleKind, ...],
+                 nodes: Nodes, is_timed: bool, relaxed: bool,
+                 pause: Pause = UNHURRIED.pause) -> None:
         """Begin with no matrices.
 
         Parameters
@@ -71,7 +72,7 @@ class Drives:
         self.actions = Actions(request, places, kinds, nodes, is_timed, relaxed)
         self.is_compromise = self.actions.is_compromise  # whether there was such a case
 
-    def count(self, kinds: Iterable[Kind]) -> int:
+    def count(self, kinds: Iterable[VehicleKind]) -> int:
         """Return how many pairs of matrices the vehicles of some kinds need; builds none.
 
         Raises
@@ -81,11 +82,11 @@ class Drives:
         """
         return len({self._choose(kind)[0] for kind in kinds})
 
-    def drive(self, kind: Kind) -> Drive:
+    def drive(self, kind: VehicleKind) -> Drive:
         """Return how the vehicles of a kind drive; raises as `count` does."""
         return self._choose(kind)[1]()
 
-    def _choose(self, kind: Kind) -> tuple[Key, Callable[[], Drive]]:
+    def _choose(self, kind: VehicleKind) -> tuple[Key, Callable[[], Drive]]:
         """Return what tells the matrices of a kind from others, and what builds them."""
         legs = self._places.legs[kind.stated.profile]
         tariff = Tariff.of(kind, legs, self._ratio(kind) if _is_mixed(kind) else None)
@@ -105,7 +106,7 @@ class Drives:
         key = ("limited", *self._key(kind, "costs", "durations"), tariff, seconds, metres)
         return key, lambda: self._limited(kind, tariff, seconds, metres, key)
 
-    def _limits(self, kind: Kind, legs: Legs,
+    def _limits(self, kind: VehicleKind, legs: ProfileLegs,
                 tariff: "Tariff") -> tuple[int | None, int | None]:
         """Return the most seconds of the matrix and metres of a route, None if it can't exceed."""
         stated = kind.stated
@@ -124,7 +125,7 @@ class Drives:
                 metres = None
         return seconds, metres
 
-    def _ratio(self, kind: Kind) -> Fraction | None:
+    def _ratio(self, kind: VehicleKind) -> Fraction | None:
         """Return metres by second if that is the same for all legs of a kind's profile."""
         profile = kind.stated.profile
         if profile not in self._ratios:
@@ -139,14 +140,14 @@ class Drives:
             self._longest[id(matrix)] = int(to_jobs.sum() + spread[:, :depots].max())
         return self._longest[id(matrix)]
 
-    def _by(self, kind: Kind, basis: str, rate: float,
+    def _by(self, kind: VehicleKind, basis: str, rate: float,
             limit: int | None) -> tuple[Key, Callable[[], Drive]]:
         """Choose a drive that costs `rate` per 1,000 of what the basis measures."""
         return self._key(kind, basis, "durations"), lambda: Drive(
             self._travel(kind, basis, "durations"), rate,
             max_distance=None if limit is None else limit * PARTS)
 
-    def _untimed(self, kind: Kind, tariff: "Tariff", seconds: int | None,
+    def _untimed(self, kind: VehicleKind, tariff: "Tariff", seconds: int | None,
                  metres: int | None) -> tuple[Key, Callable[[], Drive]]:
         """Choose a drive whose working time stands for one of the limited quantities."""
         rates = kind.rates
@@ -161,7 +162,7 @@ class Drives:
             self._travel(kind, tariff.basis, clock), tariff.rate,
             max_working=None if limit is None else limit * PARTS)
 
-    def _limited(self, kind: Kind, tariff: "Tariff", seconds: int | None,
+    def _limited(self, kind: VehicleKind, tariff: "Tariff", seconds: int | None,
                  metres: int | None, key: Key) -> Drive:
         """Return a drive that keeps its limits and costs about what it should."""
         if key in self._limits_kept:
@@ -178,7 +179,7 @@ class Drives:
         self._limits_kept[key] = drive
         return drive
 
-    def _share(self, kind: Kind, seconds: int, metres: int) -> tuple[IntArray, int]:
+    def _share(self, kind: VehicleKind, seconds: int, metres: int) -> tuple[IntArray, int]:
         """Return which share a leg uses up of the limit of which it uses up more, and the whole."""
         legs = self._places.legs[kind.stated.profile]
         shares = np.maximum(self._nodes.spread(legs.durations) / max(seconds, 0.5),
@@ -189,7 +190,7 @@ class Drives:
         rounded = np.floor(shares * whole) if finest < whole else np.ceil(shares * whole)
         return np.minimum(rounded, MAX_QUANTITY).astype(np.int64), whole
 
-    def _key(self, kind: Kind, basis: str, clock: str) -> Key:
+    def _key(self, kind: VehicleKind, basis: str, clock: str) -> Key:
         """Return what tells matrices that measure `basis`, with times by `clock`, from others."""
         rates = kind.rates
         key: Key = (kind.stated.profile, basis, clock)
@@ -199,7 +200,7 @@ class Drives:
             key = (*key, rates.time, kind.type if self.actions.delays(kind) else "")
         return key
 
-    def _travel(self, kind: Kind, basis: str, clock: str) -> int:
+    def _travel(self, kind: VehicleKind, basis: str, clock: str) -> int:
         """Return the index of matrices that measure `basis`, with times by `clock`."""
         key = self._key(kind, basis, clock)
         if key not in self._index:
@@ -208,7 +209,7 @@ class Drives:
             self.travels.append(Travel(self._durations(kind, clock), self._measure(kind, basis)))
         return self._index[key]
 
-    def _durations(self, kind: Kind, clock: str) -> IntArray:
+    def _durations(self, kind: VehicleKind, clock: str) -> IntArray:
         """Return milliseconds of legs; without windows, thousandths of what the clock measures.
 
         No vehicle works as long as a leg that isn't there takes.
@@ -224,7 +225,7 @@ class Drives:
                 travel += self.actions.beside_travel(kind) * PARTS
         return np.where(seconds >= NO_WAY, MAX_QUANTITY, np.minimum(travel, MAX_QUANTITY))
 
-    def _measure(self, kind: Kind, basis: str) -> IntArray:
+    def _measure(self, kind: VehicleKind, basis: str) -> IntArray:
         legs, rates = self._places.legs[kind.stated.profile], kind.rates
         if basis != "costs":
             measured = legs.durations if basis == "durations" else legs.distances
@@ -249,7 +250,7 @@ class Tariff:
     ratio: Fraction | None  # metres by second, where all legs have the same
 
     @classmethod
-    def of(cls, kind: Kind, legs: Legs, ratio: Fraction | None) -> "Tariff":
+    def of(cls, kind: VehicleKind, legs: ProfileLegs, ratio: Fraction | None) -> "Tariff":
         """Find what the cost of a kind is proportional to; `ratio` if all legs have the same."""
         rates = kind.rates
         if legs.costs is not None or rates.task_cost:
@@ -264,14 +265,14 @@ class Tariff:
         return cls("costs", PARTS, True, None)
 
 
-def _is_mixed(kind: Kind) -> bool:
+def _is_mixed(kind: VehicleKind) -> bool:
     """Tell whether both durations and distances count, be it as costs or as limits."""
     stated, rates = kind.stated, kind.rates
     return (bool(rates.distance_cost or stated.max_distance is not None)
             and bool(rates.time_cost or stated.max_travel_time is not None))
 
 
-def _ratio(legs: Legs) -> Fraction | None:
+def _ratio(legs: ProfileLegs) -> Fraction | None:
     """Return metres by second if that is the same for all legs."""
     seconds = at_most_longest(legs.durations)
     metres = at_most_longest(legs.distances)

@@ -8,11 +8,11 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 
 from model.dialects.vroom.checking import route_faults
-from model.dialects.vroom.kinds import Kind
+from model.dialects.vroom.kinds import VehicleKind
 from model.dialects.vroom.models import Routes
-from model.dialects.vroom.places import Places
+from model.dialects.vroom.places import Sites
 from model.dialects.vroom.request import Request
-from model.dialects.vroom.timing import Driver, Visit
+from model.dialects.vroom.timing import JobsDone, RouteTimer
 from model.problem import MAX_BREAKS
 
 Value = tuple[int, int, int]
@@ -43,7 +43,7 @@ class Beginning:
     """A way to visit some jobs, and where the vehicle stands then."""
 
     jobs: tuple[int, ...]
-    visit: Visit
+    visit: JobsDone
 
     def is_beaten_by(self, other: "Beginning") -> bool:
         """Tell whether another through the same jobs is no worse in anything that counts."""
@@ -51,7 +51,7 @@ class Beginning:
             self.visit.used, other.visit.used, strict=True))
 
 
-def best_routes(request: Request, places: Places, kinds: Sequence[Kind], jobs: Sequence[int],
+def best_routes(request: Request, places: Sites, kinds: Sequence[VehicleKind], jobs: Sequence[int],
                 vehicles: Sequence[int], should_stop: Callable[[], bool]) -> Routes | None:
     """Return the best routes for jobs; None if there are too many ways to begin with, or if it
     `should_stop`.
@@ -65,7 +65,7 @@ def best_routes(request: Request, places: Places, kinds: Sequence[Kind], jobs: S
     """
     tours = {}
     for kind in set(vehicles):
-        found = _tours(request, Driver(request, places, kinds[kind].vehicles[0]), jobs,
+        found = _tours(request, RouteTimer(request, places, kinds[kind].vehicles[0]), jobs,
                        should_stop)
         if found is None:
             return None
@@ -92,7 +92,8 @@ def best_routes(request: Request, places: Places, kinds: Sequence[Kind], jobs: S
     return routes_of
 
 
-def _tours(request: Request, driver: Driver, jobs: Sequence[int], should_stop: Callable[[], bool],
+def _tours(request: Request, driver: RouteTimer, jobs: Sequence[int],
+           should_stop: Callable[[], bool],
            ) -> Mapping[int, tuple[Value, tuple[int, ...]]] | None:
     """Return the best route of a vehicle through each set of jobs that it can serve.
 
@@ -131,7 +132,7 @@ def _may_come(request: Request, jobs: Sequence[int], taken: int, job: int) -> bo
         taken >> jobs.index(stated.mate) & 1)
 
 
-def _go_on(driver: Driver, beginning: Beginning, job: int, known: list[Beginning]) -> None:
+def _go_on(driver: RouteTimer, beginning: Beginning, job: int, known: list[Beginning]) -> None:
     """Add a beginning that goes on to a job, unless it can't or another is as good. In place."""
     visit = driver.visit(beginning.visit, job)
     if visit is None:
@@ -144,7 +145,7 @@ def _go_on(driver: Driver, beginning: Beginning, job: int, known: list[Beginning
         known.append(longer)
 
 
-def _value(request: Request, driver: Driver, jobs: tuple[int, ...]) -> Value | None:
+def _value(request: Request, driver: RouteTimer, jobs: tuple[int, ...]) -> Value | None:
     """Return what a route is worth, None if it breaks a rule."""
     if any(route_faults(request, driver.places, driver.vehicle, jobs)):
         return None

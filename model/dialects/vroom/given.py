@@ -14,9 +14,9 @@ from dataclasses import dataclass
 from itertools import pairwise
 from math import inf
 
-from model.dialects.vroom.breaks import Way
+from model.dialects.vroom.breaks import GapsForBreaks
 from model.dialects.vroom.errors import TooLargeError
-from model.dialects.vroom.request import Bounds
+from model.dialects.vroom.request import StartBounds
 from model.dialects.vroom.windows import ENDLESS, TIME_SCALE, Slots
 
 MOST_LOOKS = 3_000_000
@@ -30,11 +30,11 @@ Cost = float
 class GivenWay:
     """A route whose breaks are in given gaps."""
 
-    way: Way
+    way: GapsForBreaks
     counts: Sequence[int]  # (gap,) breaks over behind it
     ends: tuple[Slots, Slots]  # when the vehicle may begin, and be back
-    node_bounds: Sequence[Bounds]  # of the start, of each job, of the end; in seconds
-    rest_bounds: Sequence[Bounds]  # of each break
+    node_bounds: Sequence[StartBounds]  # of the start, of each job, of the end; in seconds
+    rest_bounds: Sequence[StartBounds]  # of each break
 
 
 @dataclass(frozen=True)
@@ -136,7 +136,7 @@ class _Program:
             per = 1
         return self._cost(time, self._node_slots[node], bounds) + per * time
 
-    def _cost(self, time: int, slots: Slots, bounds: Bounds) -> Cost:
+    def _cost(self, time: int, slots: Slots, bounds: StartBounds) -> Cost:
         if ((bounds.after is not None and time < bounds.after * TIME_SCALE)
                 or (bounds.before is not None and time > bounds.before * TIME_SCALE)):
             return inf
@@ -219,7 +219,7 @@ def missed(time: int, slots: Slots) -> int:
     return min(max(begin - time, time - end, 0) for begin, end in slots)
 
 
-def _known(bounds: Bounds) -> list[int]:
+def _known(bounds: StartBounds) -> list[int]:
     return [time * TIME_SCALE for time in (bounds.after, bounds.before) if time is not None]
 
 

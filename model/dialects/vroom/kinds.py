@@ -5,22 +5,22 @@ from dataclasses import dataclass
 import numpy as np
 
 from model.dialects.vroom.errors import RefusedError
-from model.dialects.vroom.places import Places
-from model.dialects.vroom.request import Request, Vehicle
-from model.dialects.vroom.timing import Rates
+from model.dialects.vroom.places import Sites
+from model.dialects.vroom.request import Request, VroomVehicle
+from model.dialects.vroom.timing import ProfileRates
 from model.problem import MAX_DIMENSIONS, IntArray
 
 
 @dataclass(frozen=True)
-class Kind:
+class VehicleKind:
     """Vehicles that are alike."""
 
     vehicles: tuple[int, ...]  # indices into the request's vehicles
-    stated: Vehicle  # the first of them
+    stated: VroomVehicle  # the first of them
     start: int  # site or NOWHERE
     end: int
     type: str  # empty if no job names it
-    rates: Rates
+    rates: ProfileRates
 
 
 @dataclass(frozen=True, eq=False)
@@ -34,7 +34,7 @@ class Loads:
     kept: tuple[int, ...]  # which of the amounts stated these are
 
 
-def find_kinds(request: Request, places: Places) -> tuple[Kind, ...]:
+def find_kinds(request: Request, places: Sites) -> tuple[VehicleKind, ...]:
     """Group the vehicles of a request."""
     named = {name for job in request.jobs
              for name in (*job.setup_per_type, *job.service_per_type)}
@@ -51,15 +51,15 @@ def find_kinds(request: Request, places: Places) -> tuple[Kind, ...]:
     return tuple(_kind(request, places, members, named) for members in groups.values())
 
 
-def _kind(request: Request, places: Places, members: list[int], named: set[str]) -> Kind:
+def _kind(request: Request, places: Sites, members: list[int], named: set[str]) -> VehicleKind:
     stated = request.vehicles[members[0]]
     has_costs = places.legs[stated.profile].costs is not None
-    return Kind(tuple(members), stated, int(places.starts[members[0]]),
-                int(places.ends[members[0]]), stated.type if stated.type in named else "",
-                Rates.of(stated, has_costs))
+    return VehicleKind(tuple(members), stated, int(places.starts[members[0]]),
+                       int(places.ends[members[0]]), stated.type if stated.type in named else "",
+                       ProfileRates.of(stated, has_costs))
 
 
-def find_loads(request: Request, kinds: tuple[Kind, ...]) -> Loads:
+def find_loads(request: Request, kinds: tuple[VehicleKind, ...]) -> Loads:
     """Return the amounts that may fill a vehicle, or be too much during a break.
 
     Raises

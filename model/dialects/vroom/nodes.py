@@ -5,8 +5,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from model.dialects.vroom.kinds import Kind
-from model.dialects.vroom.places import NOWHERE, Places
+from model.dialects.vroom.kinds import VehicleKind
+from model.dialects.vroom.places import NOWHERE, Sites
 from model.problem import MAX_QUANTITY, BoolArray, IntArray
 
 PARTS = 1000
@@ -25,7 +25,7 @@ class Nodes:
     sites: IntArray  # (node,) site or NOWHERE
 
     @classmethod
-    def of(cls, places: Places, kinds: Sequence[Kind], jobs: Sequence[int]) -> "Nodes":
+    def of(cls, places: Sites, kinds: Sequence[VehicleKind], jobs: Sequence[int]) -> "Nodes":
         """Return the nodes for vehicles and jobs."""
         depots = tuple(dict.fromkeys(site for kind in kinds for site in (kind.start, kind.end)))
         sites = np.concatenate([np.array(depots, np.int64), places.jobs[list(jobs)]])

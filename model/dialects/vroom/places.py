@@ -10,7 +10,7 @@ NOWHERE = -1
 
 
 @dataclass(frozen=True, eq=False)
-class Legs:
+class ProfileLegs:
     """Legs of one profile, (site, site), as stated or to whole seconds and metres."""
 
     durations: IntArray  # s
@@ -20,11 +20,11 @@ class Legs:
 
 
 @dataclass(frozen=True, eq=False)
-class Places:
+class Sites:
     """Sites are the distinct places of a request, numbered from 0."""
 
     jobs: IntArray  # (job,) site
     starts: IntArray  # (vehicle,) site or NOWHERE
     ends: IntArray
     map: FloatArray | None  # (site, 2) m, where all sites are known
-    legs: Mapping[str, Legs]  # by profile
+    legs: Mapping[str, ProfileLegs]  # by profile

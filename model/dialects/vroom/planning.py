@@ -16,11 +16,11 @@ from model.dialects.vroom.convert import Converter
 from model.dialects.vroom.errors import RefusedError
 from model.dialects.vroom.exact import best_routes, is_few
 from model.dialects.vroom.models import Model, Routes
-from model.dialects.vroom.places import Places
+from model.dialects.vroom.places import Sites
 from model.dialects.vroom.prices import leave_out_by_priority
 from model.dialects.vroom.repair import Mending, units_of
 from model.dialects.vroom.request import Request
-from model.dialects.vroom.work import UNHURRIED, LegLimit, Preparing, attempt_seconds, model_seconds
+from model.dialects.vroom.work import UNHURRIED, LegLimit, VroomWork, attempt_seconds, model_seconds
 from model.judge.check import check
 from model.planner import PlanCheckError, PlanOptions, PlanResult, Progress
 from model.problem import Problem
@@ -55,7 +55,7 @@ Plan = Callable[[Problem, PlanOptions, Solution, Tell], PlanResult]
 
 
 @dataclass(frozen=True, eq=False)
-class Found:
+class VroomPlan:
     """A plan for a request."""
 
     routes: Routes
@@ -72,8 +72,8 @@ class Planning:
         If the request asks for what the planner can't do, or for too much.
     """
 
-    def __init__(self, request: Request, places: Places, plan: Plan, options: PlanOptions,
-                 max_legs: LegLimit, preparing: Preparing = UNHURRIED) -> None:
+    def __init__(self, request: Request, places: Sites, plan: Plan, options: PlanOptions,
+                 max_legs: LegLimit, preparing: VroomWork = UNHURRIED) -> None:
         self._plan = plan
         self._options = options
         self._request = request
@@ -86,7 +86,7 @@ class Planning:
         self._has_tried = False
         self.refused = 0  # plans on the way that broke a rule: errors of the planner
 
-    def find(self, deadline: float, start: Routes) -> Found:
+    def find(self, deadline: float, start: Routes) -> VroomPlan:
         """Return the best plan found until `deadline`, on `time.perf_counter`.
 
         Parameters
@@ -121,7 +121,7 @@ class Planning:
             model = self._converter.model(sorted(found.served))
         return self._improve(model, self._left(deadline), found.routes)
 
-    def _best_of_few(self, jobs: Sequence[int], deadline: float) -> Found | None:
+    def _best_of_few(self, jobs: Sequence[int], deadline: float) -> VroomPlan | None:
         """Return the best plan for few jobs; None for more, or where it isn't found in time."""
         breaks = max(len(kind.stated.breaks) for kind in self.kinds)
         if not is_few(len(jobs), len(self.kinds), breaks):
@@ -153,7 +153,7 @@ class Planning:
             raise RefusedError("The routes in steps can't be started from here: jobs with "
                                "setup and time_windows share a place.")
 
-    def _improve(self, model: Model, seconds: float, start: Routes) -> Found:
+    def _improve(self, model: Model, seconds: float, start: Routes) -> VroomPlan:
         """Plan a problem, after relaxed ones if there are any; return no worse than `start`."""
         deadline = time.perf_counter() + seconds
         best = self._judged(start)
@@ -161,7 +161,8 @@ class Planning:
             best = self._attempt(model, relaxed, RELAXED * seconds, best)
         return self._attempt(model, model.problem, self._left(deadline), best)
 
-    def _attempt(self, model: Model, problem: Problem, seconds: float, best: Found) -> Found:
+    def _attempt(self, model: Model, problem: Problem, seconds: float,
+                 best: VroomPlan) -> VroomPlan:
         """Plan a problem of a model once, if there is time or no plan yet.
 
         Returns
@@ -198,7 +199,7 @@ class Planning:
             return model.solution({})
         return given
 
-    def _judged(self, routes: Routes) -> Found:
+    def _judged(self, routes: Routes) -> VroomPlan:
         """Return routes with their value.
 
         Raises
@@ -214,25 +215,25 @@ class Planning:
                 for fault in route_faults(self._request, self._places,
                                           self.kinds[kind].vehicles[0], jobs)))
         served = [job for its_routes in routes.values() for jobs in its_routes for job in jobs]
-        return Found(routes, frozenset(served),
-                     (sum(self._priorities[job] for job in served), len(served),
-                      -sum(cost for cost in costs if cost is not None)))
+        return VroomPlan(routes, frozenset(served),
+                         (sum(self._priorities[job] for job in served), len(served),
+                          -sum(cost for cost in costs if cost is not None)))
 
-    def _accepted(self, routes: Routes, until: float) -> Found:
+    def _accepted(self, routes: Routes, until: float) -> VroomPlan:
         """Return routes that keep all rules, as all should; counts where they don't. In place."""
         if len(self._sound(routes).served) < _num_served(routes):
             self.refused += 1
             logger.error("plan refused: a route breaks a rule of VROOM's")
         return self._mended(routes, until)
 
-    def _sound(self, routes: Routes) -> Found:
+    def _sound(self, routes: Routes) -> VroomPlan:
         """Return those routes that keep all rules, with their value."""
         sound = {kind: [jobs for jobs in its_routes
                         if self._route_cost(kind, tuple(jobs)) is not None]
                  for kind, its_routes in routes.items()}
         return self._judged({kind: its_routes for kind, its_routes in sound.items() if its_routes})
 
-    def _mended(self, routes: Routes, until: float) -> Found:
+    def _mended(self, routes: Routes, until: float) -> VroomPlan:
         """Return routes without rules that are broken, with their value."""
         sound = self._sound(routes)
         if len(sound.served) == _num_served(routes):

@@ -4,9 +4,9 @@ from collections.abc import Collection, Mapping, Sequence
 from dataclasses import replace
 
 from model.dialects.vroom.checking import route_faults
-from model.dialects.vroom.kinds import Kind
-from model.dialects.vroom.places import Places
-from model.dialects.vroom.request import Request, Vehicle
+from model.dialects.vroom.kinds import VehicleKind
+from model.dialects.vroom.places import Sites
+from model.dialects.vroom.request import Request, VroomVehicle
 
 MOST_LOOKS = 2000
 """Jobs, each with a kind of vehicle, that are looked at: some tenths of a second."""
@@ -18,7 +18,7 @@ FULL = "Other jobs leave the vehicles that could serve it no room for it."
 FREE = "Vehicle {id} is free and could serve it: no such plan was found in time."
 
 
-def reasons_of(request: Request, places: Places, kinds: Sequence[Kind], used: Collection[int],
+def reasons_of(request: Request, places: Sites, kinds: Sequence[VehicleKind], used: Collection[int],
                left_out: Sequence[int]) -> Mapping[int, list[str]]:
     """Return why each job was left out; nothing of the last ones where they are too many.
 
@@ -33,7 +33,7 @@ def reasons_of(request: Request, places: Places, kinds: Sequence[Kind], used: Co
     return {job: _reasons(request, resting, places, kinds, used, job) for job in told}
 
 
-def _reasons(request: Request, resting: Request, places: Places, kinds: Sequence[Kind],
+def _reasons(request: Request, resting: Request, places: Sites, kinds: Sequence[VehicleKind],
              used: Collection[int], job: int) -> list[str]:
     """Return what keeps all vehicles from a job alone, else what it may be.
 
@@ -54,7 +54,7 @@ def _reasons(request: Request, resting: Request, places: Places, kinds: Sequence
     return [FULL] if could else found[:MOST_TOLD]
 
 
-def _of_breaks(stated: Vehicle) -> str:
+def _of_breaks(stated: VroomVehicle) -> str:
     """Say which break of a vehicle leaves it no time, as each route has all, within its own time.
     """
     begin, end = stated.time_window or (0, None)

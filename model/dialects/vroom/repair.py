@@ -17,7 +17,7 @@ Unit = tuple[int, ...]
 
 
 @dataclass(frozen=True)
-class Work:
+class VehicleWork:
     """What one vehicle does."""
 
     kind: int
@@ -53,7 +53,7 @@ class Mending:
 
         Each is put where that costs least, and then moved for as long as that saves anything.
         """
-        works = [Work(kind, self._kept(kind, jobs))
+        works = [VehicleWork(kind, self._kept(kind, jobs))
                  for kind, its_routes in routes.items() for jobs in its_routes]
         served = {job for work in works for job in work.jobs}
         for unit in self._units:
@@ -74,7 +74,7 @@ class Mending:
     def _is_over(self) -> bool:
         return time.perf_counter() >= self._until
 
-    def _price(self, work: Work) -> int | None:
+    def _price(self, work: VehicleWork) -> int | None:
         """Return what a vehicle's work costs; None if it breaks a rule."""
         return self._cost(work.kind, work.jobs) if work.jobs else 0
 
@@ -89,12 +89,13 @@ class Mending:
                 stay = stay if self._cost(kind, tried) is None else tried
         return stay
 
-    def _with(self, works: list[Work], unit: Unit) -> tuple[int, list[Work]] | None:
+    def _with(self, works: list[VehicleWork], unit: Unit) -> tuple[int, list[VehicleWork]] | None:
         """Return works with somebody more, where that costs least, and how much; None if nowhere.
         """
         used = Counter(work.kind for work in works)
-        fresh = [Work(kind, ()) for kind, count in enumerate(self._counts) if used[kind] < count]
-        best: tuple[int, int, Work] | None = None
+        fresh = [VehicleWork(kind, ()) for kind, count in enumerate(self._counts)
+                 if used[kind] < count]
+        best: tuple[int, int, VehicleWork] | None = None
         for number, work in enumerate([*works, *fresh]):
             before = self._price(work)
             for jobs in _longer(work.jobs, unit):
@@ -103,19 +104,19 @@ class Mending:
                 after = self._cost(work.kind, jobs)
                 if before is not None and after is not None and (
                         best is None or after - before < best[0]):
-                    best = after - before, number, Work(work.kind, jobs)
+                    best = after - before, number, VehicleWork(work.kind, jobs)
         if best is None:
             return None
         more, number, work = best
         return more, [*works[:number], work, *works[number + 1:]]
 
-    def _moved(self, works: list[Work], unit: Unit) -> list[Work]:
+    def _moved(self, works: list[VehicleWork], unit: Unit) -> list[VehicleWork]:
         """Return works with somebody at a cheaper place, if there is one."""
         number = next((index for index, work in enumerate(works) if unit[0] in work.jobs), None)
         if number is None:
             return works
         work = works[number]
-        less = Work(work.kind, tuple([job for job in work.jobs if job not in unit]))
+        less = VehicleWork(work.kind, tuple([job for job in work.jobs if job not in unit]))
         before, after = self._price(work), self._price(less)
         if before is None or after is None:
             return works

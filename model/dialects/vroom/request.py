@@ -19,7 +19,7 @@ class Job:
     id: int  # unique among those of its kind
     setup: int  # s, unless the task before is at the same place
     service: int  # s
-    setup_per_type: Mapping[str, int]  # s by `Vehicle.type`, instead of `setup`
+    setup_per_type: Mapping[str, int]  # s by `VroomVehicle.type`, instead of `setup`
     service_per_type: Mapping[str, int]
     delivery: tuple[int, ...]  # brought: from the start, or from the mate; empty: nothing
     pickup: tuple[int, ...]  # taken: to the end, or to the mate
@@ -41,7 +41,7 @@ class Costs:
 
 
 @dataclass(frozen=True, slots=True)
-class Break:
+class VroomBreak:
     """A break of a vehicle, which each of its routes has."""
 
     id: int
@@ -51,7 +51,7 @@ class Break:
 
 
 @dataclass(frozen=True, slots=True)
-class Vehicle:
+class VroomVehicle:
     """A vehicle."""
 
     id: int
@@ -66,11 +66,11 @@ class Vehicle:
     max_travel_time: int | None  # s
     max_distance: int | None  # m
     steps: tuple[int, ...]  # indices of the jobs of a route to start from; empty: none
-    breaks: tuple[Break, ...] = ()  # in the order in which they are taken
+    breaks: tuple[VroomBreak, ...] = ()  # in the order in which they are taken
 
 
 @dataclass(frozen=True, slots=True)
-class Bounds:
+class StartBounds:
     """From and until when a step has to start, in seconds; None: any time."""
 
     after: int | None = None
@@ -84,10 +84,10 @@ class GivenRoute:
     vehicle: int  # index into the request's vehicles
     jobs: tuple[int, ...]
     rests: tuple[tuple[int, int], ...]  # index into the vehicle's breaks, and jobs before it
-    start: Bounds
-    end: Bounds
-    job_bounds: tuple[Bounds, ...]
-    rest_bounds: tuple[Bounds, ...]
+    start: StartBounds
+    end: StartBounds
+    job_bounds: tuple[StartBounds, ...]
+    rest_bounds: tuple[StartBounds, ...]
 
 
 @dataclass(frozen=True)
@@ -95,7 +95,7 @@ class Request:
     """Jobs, and vehicles that serve them."""
 
     jobs: tuple[Job, ...]
-    vehicles: tuple[Vehicle, ...]
+    vehicles: tuple[VroomVehicle, ...]
 
     @cached_property
     def is_timed(self) -> bool:

@@ -11,7 +11,7 @@ between them.
 from collections.abc import Sequence
 from itertools import pairwise
 
-from model.dialects.vroom.kinds import Kind
+from model.dialects.vroom.kinds import VehicleKind
 from model.dialects.vroom.request import Window
 from model.dialects.vroom.windows import ENDLESS
 from model.problem import MAX_BREAKS
@@ -30,7 +30,7 @@ class Rests:
     is between. Of breaks that are taken as one, relaxed, the longest stands for all.
     """
 
-    def __init__(self, kinds: Sequence[Kind], is_timed: bool) -> None:
+    def __init__(self, kinds: Sequence[VehicleKind], is_timed: bool) -> None:
         """Cut windows; where nothing `is_timed` breaks bind nobody."""
         self._strict = [_cut(kind, relaxed=False) if is_timed else () for kind in kinds]
         self._loose = [_cut(kind, relaxed=True) if is_timed else () for kind in kinds]
@@ -104,7 +104,7 @@ def _least_of(limits: Sequence[MostAboard]) -> MostAboard:
     return tuple(map(min, zip(*stated, strict=True))) if stated else None
 
 
-def _cut(kind: Kind, relaxed: bool) -> Sequence[CutBreak]:
+def _cut(kind: VehicleKind, relaxed: bool) -> Sequence[CutBreak]:
     shift = kind.stated.time_window or (0, ENDLESS)
     breaks = kind.stated.breaks
     windows = [_window(each.time_windows, shift, relaxed) for each in breaks]

@@ -10,10 +10,10 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import accumulate, pairwise
 
-from model.dialects.vroom.breaks import Pause, Rest, Way, after_job, arrivals
+from model.dialects.vroom.breaks import GapsForBreaks, Pause, VroomRest, after_job, arrivals
 from model.dialects.vroom.given import GivenWay, Times, best_times
-from model.dialects.vroom.places import NOWHERE, Legs, Places
-from model.dialects.vroom.request import GivenRoute, Job, Request, Vehicle
+from model.dialects.vroom.places import NOWHERE, ProfileLegs, Sites
+from model.dialects.vroom.request import GivenRoute, Job, Request, VroomVehicle
 from model.dialects.vroom.windows import ENDLESS, MISSED, TIME_SCALE, scaled, slots_of, start_in
 
 COST_SCALE = 360_000
@@ -27,7 +27,7 @@ NO_WAY = 10**9
 
 
 @dataclass(frozen=True)
-class Rates:
+class ProfileRates:
     """What a vehicle makes of its profile's matrices."""
 
     time: int  # hundredths by a second of the matrix
@@ -37,7 +37,7 @@ class Rates:
     fixed_cost: int
 
     @classmethod
-    def of(cls, vehicle: Vehicle, has_costs: bool) -> "Rates":
+    def of(cls, vehicle: VroomVehicle, has_costs: bool) -> "ProfileRates":
         """Return the rates of a vehicle; `has_costs` if its profile has a matrix of costs."""
         costs = vehicle.costs
         slowness = 1 / vehicle.speed_factor * TIME_SCALE
@@ -66,7 +66,7 @@ class Halt:
 
 
 @dataclass(frozen=True)
-class TimedRoute:
+class TimedVroomRoute:
     """A vehicle's route; distances in metres."""
 
     vehicle: int  # index into the request's vehicles
@@ -77,7 +77,7 @@ class TimedRoute:
     distances: tuple[int, ...]  # likewise
     travel_cost: int
     cost: int  # of travel, of setup and service, and for being used
-    rests: tuple[Rest, ...] = ()
+    rests: tuple[VroomRest, ...] = ()
 
     @property
     def jobs(self) -> tuple[int, ...]:
@@ -86,7 +86,7 @@ class TimedRoute:
 
 
 @dataclass(frozen=True)
-class Visit:
+class JobsDone:
     """The earliest that a vehicle can be done with some jobs, and what it has used up by then."""
 
     site: int  # where it stands, perhaps NOWHERE
@@ -109,21 +109,21 @@ class _Path:
     """What is driven and done on a route."""
 
     jobs: Sequence[int]
-    way: Way
+    way: GapsForBreaks
     actions: Sequence[tuple[int, int]]  # (job,) setup and service
     metres: Sequence[int]  # (gap,)
     travel_cost: int
 
 
 @dataclass(frozen=True)
-class Driver:
+class RouteTimer:
     """Times the routes of one vehicle."""
 
     request: Request
-    places: Places
+    places: Sites
     vehicle: int
 
-    def drive(self, jobs: Sequence[int]) -> TimedRoute | None:
+    def drive(self, jobs: Sequence[int]) -> TimedVroomRoute | None:
         """Return the route through `jobs`, at least one; None if it misses a time window or there
         is no way.
 
@@ -139,7 +139,7 @@ class Driver:
         departure, counts = path.way.latest_departure(earliest)
         return self._timed(path, counts, departure)
 
-    def drive_given(self, given: GivenRoute) -> TimedRoute | None:
+    def drive_given(self, given: GivenRoute) -> TimedVroomRoute | None:
         """Return a route that is given with the times that break the least of its windows; None if
         there is no way, or not at the times that are forced.
 
@@ -170,19 +170,19 @@ class Driver:
         legs = [self._leg(*pair) for pair in pairs]
         actions = [self._action(*pair, job) for pair, job in zip(pairs, jobs, strict=False)]
         slots = [slots_of(self.request.jobs[job].time_windows) for job in jobs]
-        way = Way([travel for travel, _, _ in legs], [sum(action) for action in actions], slots,
-                  pauses, self._allowing(jobs))
+        way = GapsForBreaks([travel for travel, _, _ in legs], [sum(action) for action in actions],
+                            slots, pauses, self._allowing(jobs))
         return _Path(jobs, way, actions, [metres for _, metres, _ in legs],
                      sum([cost for _, _, cost in legs]))
 
     def _timed(self, path: "_Path", counts: Sequence[int], departure: int,
-               times: Times | None = None) -> TimedRoute:
+               times: Times | None = None) -> TimedVroomRoute:
         """Return a route that leaves then, with so many breaks over behind each gap.
 
         All starts as soon as it may, or by `times`.
         """
         way = path.way
-        time, over, halts, rests = departure, 0, list[Halt](), list[Rest]()
+        time, over, halts, rests = departure, 0, list[Halt](), list[VroomRest]()
         for gap, count in enumerate(counts):
             arrival, taken = way.drive(gap, time, range(over, count),
                                        () if times is None else times.rests)
@@ -195,9 +195,9 @@ class Driver:
                 time = start + way.actions[gap]
         tasks = sum(way.actions) + sum([pause.duration for pause in way.pauses])
         cost = self.rates.fixed_cost + path.travel_cost + self.rates.task_cost * tasks
-        return TimedRoute(self.vehicle, departure, tuple(halts), time,
-                          tuple(accumulate(way.times)), tuple(accumulate(path.metres)),
-                          path.travel_cost, cost, tuple(rests))
+        return TimedVroomRoute(self.vehicle, departure, tuple(halts), time,
+                               tuple(accumulate(way.times)), tuple(accumulate(path.metres)),
+                               path.travel_cost, cost, tuple(rests))
 
     def missing_leg(self, jobs: Sequence[int]) -> str | None:
         """Tell in words to where on a route through `jobs` there is no way; None if there is."""
@@ -205,15 +205,15 @@ class Driver:
         return next((name for name, pair in zip(named, self._pairs(jobs), strict=True)
                      if self._leg(*pair)[0] >= self._endless), None)
 
-    def begin(self) -> Visit:
+    def begin(self) -> JobsDone:
         """Return how the vehicle begins."""
         nothing = (0,) * len(self._stated.capacity)
         begin, _ = scaled(self._stated.time_window)
         ends = (begin, *[MISSED] * len(self._pauses))
-        return Visit(int(self.places.starts[self.vehicle]), ends, 0, 0, 0, nothing, nothing,
-                     nothing)
+        return JobsDone(int(self.places.starts[self.vehicle]), ends, 0, 0, 0, nothing, nothing,
+                        nothing)
 
-    def visit(self, before: Visit, job: int) -> Visit | None:
+    def visit(self, before: JobsDone, job: int) -> JobsDone | None:
         """Return how the vehicle goes on to a job; None if that breaks a rule, whatever follows.
 
         What breaks say of loads, and shipments of who is first, is not looked at.
@@ -225,7 +225,7 @@ class Driver:
         nothing = (0,) * len(before.load)
         change = _added(stated.pickup or nothing, stated.delivery or nothing, -1)
         load = _added(before.load, change)
-        visit = Visit(
+        visit = JobsDone(
             site, after_job(reached, setup + service, slots_of(stated.time_windows)),
             before.travel + travel, before.distance + distance,
             before.cost + cost + self.rates.task_cost * (setup + service), load,
@@ -234,7 +234,7 @@ class Driver:
         can = travel < self._endless and stated.skills <= self._stated.skills
         return visit if can and self._is_allowed(visit) else None
 
-    def _is_allowed(self, visit: Visit) -> bool:
+    def _is_allowed(self, visit: JobsDone) -> bool:
         """Tell whether a vehicle that comes from a visit can keep its limits."""
         stated = self._stated
         _, latest = scaled(stated.time_window)
@@ -246,9 +246,9 @@ class Driver:
                      or visit.travel <= stated.max_travel_time * TIME_SCALE))
 
     @cached_property
-    def rates(self) -> Rates:
+    def rates(self) -> ProfileRates:
         """What the vehicle makes of its matrices."""
-        return Rates.of(self._stated, self._legs.costs is not None)
+        return ProfileRates.of(self._stated, self._legs.costs is not None)
 
     @cached_property
     def _pauses(self) -> Sequence[Pause]:
@@ -275,11 +275,11 @@ class Driver:
         return NO_WAY * self.rates.time
 
     @property
-    def _stated(self) -> Vehicle:
+    def _stated(self) -> VroomVehicle:
         return self.request.vehicles[self.vehicle]
 
     @property
-    def _legs(self) -> Legs:
+    def _legs(self) -> ProfileLegs:
         return self.places.legs[self._stated.profile]
 
     def _pairs(self, jobs: Sequence[int]) -> list[tuple[int, int]]:

@@ -16,7 +16,7 @@ SPREAD, LAID_OUT, LISTED = 3e-8, 5e-8, 5e-5
 job of a plan, to judge it."""
 
 
-class Preparing(Protocol):
+class VroomWork(Protocol):
     """The work on a request before its search, in parts between which it may end."""
 
     @property
@@ -42,7 +42,7 @@ class LegLimit:
 
 
 class Unhurried:
-    """Work that takes as long as it will; it is a `Preparing`."""
+    """Work that takes as long as it will; it is a `VroomWork`."""
 
     def should_stop(self) -> bool:
         """Tell that somebody waits."""

@@ -6,14 +6,14 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
 
 from model.problem import VehicleType
-from model.search.beginning.leg import Leg
+from model.search.beginning.leg import TripLeg
 from model.solution import Charge
 
 MOST_TRIED = 12
 """Vehicles tried for a trip, those first that are free last before it."""
 
 
-class Places:
+class ChargingPlaces:
     """Places to charge at a depot, and when they are taken."""
 
     def __init__(self, number: int, charges: Iterable[Charge]) -> None:
@@ -55,11 +55,11 @@ class TurnRow:
     free: int  # when it may begin another
     there: int  # since when it is at the depot
     level: int  # of its battery, as how long that is charged
-    legs: list[Leg] = field(default_factory=list)
+    legs: list[TripLeg] = field(default_factory=list)
     starts: list[int] = field(default_factory=list)
     charges: list[tuple[Charge, ...]] = field(default_factory=list)
 
-    def offer(self, leg: Leg, places: Places) -> tuple[int, tuple[Charge, ...]] | None:
+    def offer(self, leg: TripLeg, places: ChargingPlaces) -> tuple[int, tuple[Charge, ...]] | None:
         """Return when a trip may begin behind the others, and be charged before; None if never."""
         lacking = leg.charging - self.level
         if lacking <= 0:
@@ -72,7 +72,7 @@ class TurnRow:
             start = leg.soonest(max(self.free, begin + lacking))
         return None if start > leg.latest else (start, charges)
 
-    def put(self, leg: Leg, start: int, charges: tuple[Charge, ...], reload: int) -> None:
+    def put(self, leg: TripLeg, start: int, charges: tuple[Charge, ...], reload: int) -> None:
         """Put a trip behind the others. In place."""
         self.legs.append(leg)
         self.starts.append(start)
@@ -82,14 +82,14 @@ class TurnRow:
         self.free = self.there + reload
 
 
-def packed_in_turn(kind: VehicleType, legs: Sequence[Leg], number: int,
+def packed_in_turn(kind: VehicleType, legs: Sequence[TripLeg], number: int,
                    charges: Sequence[Charge]) -> list[TurnRow]:
     """Return trips on vehicles, put there in an order, where places to charge are shared.
 
     Each comes behind others of a vehicle that waits least for it; one that none can fly is left
     out. `number` places there are, which are taken during `charges`.
     """
-    energy, places = kind.energy, Places(number, charges)
+    energy, places = kind.energy, ChargingPlaces(number, charges)
     if energy is None:
         raise ValueError(f"vehicle type {kind.id} energy: None is not allowed")
     full = (kind.charge_left[0] if kind.charge_left else energy.available) // energy.charge

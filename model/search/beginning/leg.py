@@ -11,7 +11,7 @@ from model.problem import (
 
 
 @dataclass(frozen=True)
-class Leg:
+class TripLeg:
     """A trip as others of its vehicle meet it."""
 
     trip: Sequence[int]
@@ -59,7 +59,7 @@ class Timing:
         self._duration = problem.travel[kind.travel].duration
         self._in_turn = shares_chargers(problem, kind)
 
-    def leg(self, trip: Sequence[int]) -> Leg | None:
+    def leg(self, trip: Sequence[int]) -> TripLeg | None:
         """Return a trip as others meet it; None if it is never in time."""
         kind, customers = self._kind, [self._problem.customer_at(self._nodes[node])
                                        for node in trip]
@@ -82,8 +82,8 @@ class Timing:
         charging = self._charging(airborne)
         if self._in_turn:
             charging = self._charging_for(trip, customers, time - ready - spent)
-        found = Leg(trip, ready, latest, airborne + max(kind.reload_duration, charging), storms,
-                    airborne, charging)
+        found = TripLeg(trip, ready, latest, airborne + max(kind.reload_duration, charging), storms,
+                        airborne, charging)
         found = replace(found, ready=found.soonest(ready), latest=found.last(latest))
         is_late = found.ready > found.latest or found.ready + airborne > kind.latest
         return None if is_late else found

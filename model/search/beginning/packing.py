@@ -9,7 +9,7 @@ import numpy as np
 
 from model.problem import MS_PER_HOUR, UNLIMITED, Problem, VehicleType, shares_chargers
 from model.search.beginning.charging import TurnRow, packed_in_turn
-from model.search.beginning.leg import Leg, Timing
+from model.search.beginning.leg import Timing, TripLeg
 from model.search.beginning.stock import batteries_left
 from model.search.beginning.translate import (
     best_plan, left_out, make_searcher, read_routes,
@@ -60,7 +60,7 @@ def packed_routes(problem: Problem, k: int, trips: Sequence[Sequence[int]],
             for number, row in enumerate(rows)]
 
 
-def _charged_in_turn(problem: Problem, k: int, legs: Sequence[Leg], beside: Sequence[Route],
+def _charged_in_turn(problem: Problem, k: int, legs: Sequence[TripLeg], beside: Sequence[Route],
                      orders: int) -> list[Route]:
     """Return trips of a type whose vehicles share places to charge; they begin when that says."""
     kind = problem.vehicle_types[k]
@@ -171,11 +171,11 @@ class _Row:
     """Trips of one vehicle in their order."""
 
     earliest: int
-    legs: list[Leg] = field(default_factory=list)
+    legs: list[TripLeg] = field(default_factory=list)
     free: list[int] = field(default_factory=list)  # when it may begin another after each
     latest: list[int] = field(default_factory=list)  # start of each by which all behind are in time
 
-    def best_place(self, leg: Leg) -> tuple[float, int]:
+    def best_place(self, leg: TripLeg) -> tuple[float, int]:
         """Return what the best place for a trip costs in time, and that place; infinite if none."""
         best = math.inf, 0
         for place in range(bisect_left(self.latest, leg.ready + leg.busy), len(self.legs) + 1):
@@ -193,7 +193,7 @@ class _Row:
             best = min(best, (cost, place))
         return best
 
-    def put(self, place: int, leg: Leg) -> None:
+    def put(self, place: int, leg: TripLeg) -> None:
         """Put a trip at a place. In place."""
         self.legs.insert(place, leg)
         self.free.insert(place, 0)
@@ -207,7 +207,7 @@ class _Row:
             bound = self.latest[index] - (self.legs[index - 1].busy if index else 0)
 
 
-def _packed(kind: VehicleType, legs: Sequence[Leg]) -> list[_Row]:
+def _packed(kind: VehicleType, legs: Sequence[TripLeg]) -> list[_Row]:
     """Return trips on vehicles, put there in an order."""
     rows: list[_Row] = []
     for leg in legs:
@@ -223,14 +223,14 @@ def _packed(kind: VehicleType, legs: Sequence[Leg]) -> list[_Row]:
     return rows
 
 
-def _best_packed(kind: VehicleType, legs: Sequence[Leg], orders: int) -> list[_Row]:
+def _best_packed(kind: VehicleType, legs: Sequence[TripLeg], orders: int) -> list[_Row]:
     """Return as many trips as there is room for, on as few vehicles, of several orders."""
     packed = [_packed(kind, order) for order in _orders(legs, orders, lambda leg: leg.leeway)]
     return min(packed, key=lambda rows: (-_num_trips(rows), len(rows)))
 
 
-def _orders(legs: Sequence[Leg], number: int,
-            first: Callable[[Leg], int]) -> Iterator[list[Leg]]:
+def _orders(legs: Sequence[TripLeg], number: int,
+            first: Callable[[TripLeg], int]) -> Iterator[list[TripLeg]]:
     """Yield trips in several orders: in the first by what is said, then by chance and leeway."""
     rng = np.random.default_rng(0)
     yield sorted(legs, key=first)

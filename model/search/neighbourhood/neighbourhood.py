@@ -12,7 +12,7 @@ from model.engine.library import call, dtype_of
 from model.engine.nearest import least_columns, write_nearest_points
 from model.engine.pausing import Pause, go_on, matrix_blocks, row_blocks
 from model.engine.records import Records
-from model.engine.variants import Way, are_stated, ways_of
+from model.engine.variants import Variation, are_stated, ways_of
 from model.problem import UNLIMITED, Int32Array, IntArray, Problem, StraightLegs, Travel
 from model.problem.quantities import NO_LEG
 from model.search.neighbourhood.numbering import Numbering, along_neighbours, as_stated
@@ -81,7 +81,7 @@ def _legs(problem: Problem, returns: Sequence[bool], setup: Records, numbering: 
     ways = ways_of(problem)
     law = np.zeros(len(ways), dtype_of("tandem_leg_law"))
     point = np.zeros(problem.num_nodes, dtype_of("tandem_point"))
-    stated: list[Way] = []
+    stated: list[Variation] = []
     for index, way in enumerate(ways):
         straight = problem.travel[way.travel].straight
         if straight is None or way.launch or way.recovery:
@@ -111,13 +111,13 @@ def _in_order(point: Records, numbering: Numbering) -> Records:
     return point
 
 
-def _law(straight: StraightLegs, way: Way) -> tuple[int | float, ...]:
+def _law(straight: StraightLegs, way: Variation) -> tuple[int | float, ...]:
     points = straight.points
     return (COMPUTED, GLOBE if points.on_globe else points.rounding, straight.more,
             straight.nowhere, int(way.sets_up), points.metres, straight.pace)
 
 
-def _tables(problem: Problem, ways: Sequence[Way], directions: int, setup: Records,
+def _tables(problem: Problem, ways: Sequence[Variation], directions: int, setup: Records,
             node: IntArray, kind: type[Whole], pause: Pause) -> NDArray[Whole]:
     """Return the legs that were stated, (direction, table, node, node, 2), in 32 or 64 bits."""
     num_depots = problem.num_depots
@@ -149,7 +149,7 @@ def _add_setups(durations: NDArray[Whole], setup: Records, origin: IntArray, to:
     durations += elsewhere * setup["setup_duration"][to]
 
 
-def _add_handling(durations: NDArray[Whole], way: Way, num_depots: int) -> None:
+def _add_handling(durations: NDArray[Whole], way: Variation, num_depots: int) -> None:
     """Let legs last longer from depots by the launch, and to them by the recovery. In place."""
     for part, more in ((durations[:num_depots], way.launch),
                        (durations[:, :num_depots], way.recovery)):

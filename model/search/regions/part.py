@@ -13,7 +13,7 @@ from model.solution import Solution, renumbered
 
 
 @dataclass(frozen=True)
-class Part:
+class RegionProblem:
     """A region as a problem: all depots, its customers and its vehicles."""
 
     problem: Problem
@@ -41,7 +41,7 @@ class Part:
                 for number, vehicle in enumerate(all_of_it)}
 
 
-def part_of(problem: Problem, region: Region) -> Part:
+def part_of(problem: Problem, region: Region) -> RegionProblem:
     """Return a region of a plan as a problem of its own.
 
     Raises
@@ -71,7 +71,7 @@ def part_of(problem: Problem, region: Region) -> Part:
             may_serve = np.ones((len(kinds), len(customers)), np.bool_)
         may_serve[:, [node in parted for node in customers]] = False
     may_stop = None if problem.may_stop is None else problem.may_stop[kinds]
-    return Part(replace(
+    return RegionProblem(replace(
         problem, depots=_depots_for(problem, region),
         customers=tuple(problem.customers[node - first] for node in customers),
         vehicle_types=tuple(replace(problem.vehicle_types[kind], count=len(all_of_it), numbers=())

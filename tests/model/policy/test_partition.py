@@ -5,7 +5,7 @@ import pytest
 
 from model.engine.alarm import Alarm
 from model.policy import few_columns, partition
-from model.policy.few_columns import TooManyError, cheapest_by_trying
+from model.policy.few_columns import TooManyColumnsError, cheapest_by_trying
 from model.policy.partition import cheapest_partition
 from model.problem import FloatArray, IntArray
 
@@ -75,7 +75,7 @@ def test_what_takes_long_to_try_is_left_to_programs(monkeypatch: pytest.MonkeyPa
     columns = [np.array([0, 1]), np.array([1, 2]), np.array([0, 2]),
                np.array([0]), np.array([1]), np.array([2])]
     given = columns, np.array([2.0, 2.0, 2.0, 2.0, 2.0, 1.9]), np.full(3, -1), 6.0
-    with pytest.raises(TooManyError):
+    with pytest.raises(TooManyColumnsError):
         cheapest_by_trying(*given)
     chosen = cheapest_partition(*given, SILENT)
     assert chosen is not None

@@ -15,7 +15,7 @@ from model.problem import Problem
 from model.search import improve as searching
 from model.search.improve import Improved, Progress, SearchConfig, improve
 from model.search.route.layout import NOWHERE
-from model.search.worker import Worker
+from model.search.worker import SearchThread
 from model.simulation.extract import extract
 from model.solution import Solution
 from tests.model.rollouts import random_problems, roll
@@ -194,15 +194,15 @@ def test_searches_of_few_turns_stay_near_one_customer_after_another(
         monkeypatch: pytest.MonkeyPatch, variant: str, from_customers: int, turns: int,
         expected: set[int]) -> None:
     stays: set[int] = set()
-    run = Worker.run
+    run = SearchThread.run
 
-    def noted(worker: Worker) -> None:
+    def noted(worker: SearchThread) -> None:
         count = worker.searcher.count
         stays.add(int(count.stay))
         assert count.stay > 0 or count.focus == NOWHERE
         run(worker)
 
-    monkeypatch.setattr(Worker, "run", noted)
+    monkeypatch.setattr(SearchThread, "run", noted)
     monkeypatch.setattr(searching, "IN_PARTS_FROM", from_customers)
     monkeypatch.setattr(searching, "BY_TRUCK_FROM", 1000)
     problem = generate(np.random.default_rng(2), 40, variant)

@@ -12,7 +12,7 @@ from model.engine.library import call
 from model.judge.check import check
 from model.problem import IntArray
 from model.search.improve import SearchConfig, improve
-from model.search.limits import Span
+from model.search.limits import Cooling
 from model.search.route.layout import NOWHERE, ProblemData
 from model.search.route.state import Searcher
 from model.solution import Solution
@@ -79,15 +79,15 @@ def _routes(nodes: IntArray) -> Iterator[list[int]]:
 
 
 def test_searches_breed_and_begin_once_more(monkeypatch: pytest.MonkeyPatch) -> None:
-    problem, bred, started = planted(1, 4, True), list[Span](), list[float]()
+    problem, bred, started = planted(1, 4, True), list[Cooling](), list[float]()
     breed, start = memetic._Breeder.children, memetic._Breeder.start
 
-    def record(breeder: memetic._Breeder, start_share: float) -> Iterator[Span]:
+    def record(breeder: memetic._Breeder, start_share: float) -> Iterator[Cooling]:
         for span in breed(breeder, start_share):
             bred.append(span)
             yield span
 
-    def record_start(breeder: memetic._Breeder, end: float, elsewhere: bool) -> Iterator[Span]:
+    def record_start(breeder: memetic._Breeder, end: float, elsewhere: bool) -> Iterator[Cooling]:
         started.append(end)
         yield from start(breeder, end, elsewhere)
 
@@ -110,7 +110,7 @@ def test_breeding_ends_where_exchanges_bring_no_other_plan(monkeypatch: pytest.M
     tight, cross, number = planted(1, 4, True), memetic._Breeder._cross, 0
 
     def count(breeder: memetic._Breeder, one: memetic._Plan, other: memetic._Plan,
-              span: Span) -> bool:
+              span: Cooling) -> bool:
         nonlocal number
         number += 1
         return cross(breeder, one, other, span)

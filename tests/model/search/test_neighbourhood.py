@@ -7,7 +7,7 @@ import pytest
 
 from model.engine.instance import pack
 from model.engine.leg import ComputedLegs
-from model.engine.variants import Way, index_of, ways_of
+from model.engine.variants import Variation, index_of, ways_of
 from model.problem import UNREACHABLE, IntArray, Problem, Travel
 from model.problem.quantities import LONGEST_NARROW, NO_LEG
 from model.search.neighbourhood.neighbourhood import NEAR_INSERTION, make_neighbourhood
@@ -92,7 +92,7 @@ def test_setups_are_added_to_legs_that_there_are(closed: bool) -> None:
         table = make_neighbourhood(large, pack([large])).leg
         if isinstance(table, ComputedLegs):
             table = table.table[0]
-        found = table[index_of(ways_of(large), Way(fly, True)), :, :, 0]
+        found = table[index_of(ways_of(large), Variation(fly, True)), :, :, 0]
         assert found.dtype == kind
         if kind == np.int32:
             found = np.where(found == NO_LEG, UNREACHABLE, found.astype(np.int64))

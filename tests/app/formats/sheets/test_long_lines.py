@@ -10,8 +10,8 @@ from app.formats.sheets.choosing import with_rows_of
 from app.formats.sheets.clocks import Style
 from app.formats.sheets.columns import Column
 from app.formats.sheets.dropping import with_kinds, without_hidden, without_sums
-from app.formats.sheets.layout import Origin, Table, table_of
-from app.formats.sheets.questions import LEAVE_OUT, Asking
+from app.formats.sheets.layout import RowOrigin, Table, table_of
+from app.formats.sheets.questions import LEAVE_OUT, Questionnaire
 from app.formats.sheets.rejoining import rejoined
 from app.formats.sheets.rows import Row
 from app.formats.sheets.table import MAX_COLUMNS, NotASheetError, Sheet, read_sheets
@@ -38,7 +38,7 @@ LONG = 20_000
 SECONDS = 1.0
 
 
-def long_table(*origins: Origin) -> Table:
+def long_table(*origins: RowOrigin) -> Table:
     cells = [["name"], *([f"a{number}"] for number in range(LONG))]
     sheet = Sheet("", cells, hidden_rows=frozenset(range(1, LONG + 1, 2)))  # type: ignore[arg-type]
     return Table(sheet, (0,), ("name",), tuple(range(1, LONG + 1)), 0, origins)
@@ -49,12 +49,12 @@ def rows_alike() -> list[Row]:
 
 
 def hidden() -> int:
-    return len(without_hidden(long_table(), Asking({})).rows)
+    return len(without_hidden(long_table(), Questionnaire({})).rows)
 
 
 def sums() -> int:
     rows = rows_alike()
-    return len(without_sums(long_table(), rows, rows[::2], Asking({})))
+    return len(without_sums(long_table(), rows, rows[::2], Questionnaire({})))
 
 
 def kinds() -> int:
@@ -62,7 +62,7 @@ def kinds() -> int:
     for row in rows[::2]:
         row.values["kind"] = "delivery"
     kind = Column(0, "kind", "kind")
-    return len(with_kinds(long_table(), rows, [kind], Asking({"order_kind:x": LEAVE_OUT})))
+    return len(with_kinds(long_table(), rows, [kind], Questionnaire({"order_kind:x": LEAVE_OUT})))
 
 
 @pytest.mark.parametrize("kept", [hidden, sums, kinds])
@@ -73,7 +73,7 @@ def test_rows_are_left_out_in_a_time_that_grows_as_they_do(kept: Callable[[], in
 
 
 def test_rows_of_several_sheets_are_named_in_a_time_that_grows_as_they_do() -> None:
-    table = long_table(Origin(LONG // 2, "More", {}))
+    table = long_table(RowOrigin(LONG // 2, "More", {}))
     start = process_time()
     assert table.rows_named(table.rows).startswith(f"2-{LONG // 2}, More!A1")
     assert process_time() - start < SECONDS

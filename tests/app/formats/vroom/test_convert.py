@@ -15,8 +15,8 @@ from model.dialects.vroom.checking import route_faults
 from model.dialects.vroom.convert import Converter
 from model.dialects.vroom.errors import RefusedError, TooLargeError
 from model.dialects.vroom.models import Model, Routes
-from model.dialects.vroom.places import Places
-from model.dialects.vroom.timing import COST_SCALE, Driver
+from model.dialects.vroom.places import Sites
+from model.dialects.vroom.timing import COST_SCALE, RouteTimer
 from model.dialects.vroom.work import LegLimit
 from model.judge.check import check
 from tests.app.formats.vroom.sampling import sample_request
@@ -31,7 +31,7 @@ class Case:
     def __init__(self, request: Data, max_legs: int = MAX_LEGS) -> None:
         stated = VroomRequest.model_validate_json(json.dumps(request))
         self.request = translate(stated)
-        self.places: Places = find_places(stated, {"car": 36.0})
+        self.places: Sites = find_places(stated, {"car": 36.0})
         self.converter = Converter(self.request, self.places, LegLimit(max_legs, "MOST"))
         self.model: Model = self.converter.model(range(len(self.request.jobs)))
 
@@ -44,7 +44,7 @@ class Case:
             for kind, its_routes in routes.items() for jobs in its_routes)
 
     def cost(self, routes: Routes) -> float:
-        timed = [Driver(self.request, self.places, self.vehicle(kind)).drive(jobs)
+        timed = [RouteTimer(self.request, self.places, self.vehicle(kind)).drive(jobs)
                  for kind, its_routes in routes.items() for jobs in its_routes]
         return sum(route.cost for route in timed if route is not None) / COST_SCALE
 

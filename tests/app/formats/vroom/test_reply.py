@@ -9,12 +9,12 @@ import polyline
 import pytest
 
 from app.formats.vroom.places import find_places
-from app.formats.vroom.reply import Writer
+from app.formats.vroom.reply import ReplyWriter
 from app.formats.vroom.schemas import VroomRequest
 from app.formats.vroom.tasks import tasks_of
 from app.formats.vroom.translate import translate
 from model.dialects.vroom.checking import route_faults
-from model.dialects.vroom.timing import Driver
+from model.dialects.vroom.timing import RouteTimer
 from tests.app.formats.vroom.judge import judge
 from tests.app.formats.vroom.judge import tasks_of as judged_tasks
 from tests.app.formats.vroom.reference import solve
@@ -37,11 +37,12 @@ def written_like(reply: Data, request: Data) -> Data:
         jobs = [job_of[step["type"], step["id"]] for step in route["steps"]
                 if step["type"] not in ("start", "break", "end")]
         assert list(route_faults(meant, places, vehicle, jobs)) == []
-        timed = Driver(meant, places, vehicle).drive(jobs)
+        timed = RouteTimer(meant, places, vehicle).drive(jobs)
         assert timed is not None
         routes.append(timed)
     times = reply["summary"]["computing_times"]
-    return Writer(read, places, meant.is_timed).reply(routes, times["loading"], times["solving"])
+    writer = ReplyWriter(read, places, meant.is_timed)
+    return writer.reply(routes, times["loading"], times["solving"])
 
 
 def test_long_routes_are_written_in_time_that_grows_as_they_do() -> None:
@@ -50,9 +51,9 @@ def test_long_routes_are_written_in_time_that_grows_as_they_do() -> None:
             "vehicles": [{"id": 1, "start": [0, 0]}],
             "jobs": [{"id": job, "location": [job / 1000, 0]} for job in range(size)]}))
         places, meant = find_places(read, {"car": 36.0}), translate(read)
-        route = Driver(meant, places, 0).drive(range(size))
+        route = RouteTimer(meant, places, 0).drive(range(size))
         assert route is not None
-        return lambda: Writer(read, places, meant.is_timed).reply([route], 0, 0)
+        return lambda: ReplyWriter(read, places, meant.is_timed).reply([route], 0, 0)
 
     assert growth_of(writing, 100) < 5
 
@@ -103,9 +104,9 @@ def street() -> Data:
 def steps_by(street: Data, *jobs: int) -> list[Data]:
     read = VroomRequest.model_validate_json(json.dumps(street))
     places, meant = find_places(read, {}), translate(read)
-    timed = Driver(meant, places, 0).drive([job - 1 for job in jobs])
+    timed = RouteTimer(meant, places, 0).drive([job - 1 for job in jobs])
     assert timed is not None
-    (route,) = Writer(read, places, meant.is_timed).reply([timed], 0, 0)["routes"]
+    (route,) = ReplyWriter(read, places, meant.is_timed).reply([timed], 0, 0)["routes"]
     steps: list[Data] = route["steps"]
     return steps
 
@@ -145,9 +146,9 @@ def test_geometry_is_straight_lines_between_the_steps(street: Data) -> None:
     street |= {"vehicles": [{"id": 1, "start": [0.0, 48.0]}], "options": {"g": True}}
     read = VroomRequest.model_validate_json(json.dumps(street))
     places, meant = find_places(read, {"car": 36.0}), translate(read)
-    timed = Driver(meant, places, 0).drive([0, 1])
+    timed = RouteTimer(meant, places, 0).drive([0, 1])
     assert timed is not None
-    (route,) = Writer(read, places, meant.is_timed).reply([timed], 0, 0)["routes"]
+    (route,) = ReplyWriter(read, places, meant.is_timed).reply([timed], 0, 0)["routes"]
     assert polyline.decode(route["geometry"]) == [
         (48.0, 0.0), (48.0, 0.1), (48.0, 0.2), (48.0, 0.2)]
     metres = [step["distance"] for step in route["steps"]]

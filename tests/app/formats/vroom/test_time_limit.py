@@ -19,7 +19,7 @@ from app.serving.load.received import ReceivedBody
 from app.serving.settings import Settings
 from model.dialects.vroom.convert import Converter
 from model.dialects.vroom.drives import Drives
-from model.dialects.vroom.places import Places
+from model.dialects.vroom.places import Sites
 from model.dialects.vroom.work import LegLimit
 from model.planner import ALONE, Listener, PlanOptions, PlanResult
 from model.problem import Problem
@@ -102,7 +102,7 @@ def test_legs_are_not_looked_for_where_there_is_no_time(monkeypatch: pytest.Monk
 def converted(request: Data, preparing: Preparing) -> int:
     """Build the problem of a request; return how many pairs of matrices it has."""
     read = VroomRequest.model_validate_json(json.dumps(request))
-    places: Places = find_places(read, SPEEDS)
+    places: Sites = find_places(read, SPEEDS)
     converter = Converter(translate(read), places, LIMIT)
     return len(converter.model(range(len(read.jobs)), preparing).problem.travel)
 

@@ -9,7 +9,7 @@ from app.formats.vroom.errors import INPUT, TOO_LARGE, refused
 from app.formats.vroom.schemas import VroomRequest
 from app.formats.vroom.translate import translate
 from model.dialects.vroom.errors import RefusedError, TooLargeError
-from model.dialects.vroom.request import Job, Request, Vehicle
+from model.dialects.vroom.request import Job, Request, VroomVehicle
 
 
 def translated(**stated: Any) -> Request:
@@ -21,7 +21,7 @@ def job(**stated: Any) -> Job:
     return translated(jobs=[{"id": 1, **stated}]).jobs[0]
 
 
-def vehicle(**stated: Any) -> Vehicle:
+def vehicle(**stated: Any) -> VroomVehicle:
     return translated(vehicles=[{"id": 1, **stated}]).vehicles[0]
 
 

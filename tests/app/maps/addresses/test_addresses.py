@@ -10,7 +10,7 @@ from app.maps.addresses.addresses import Addresses
 from app.maps.addresses.caching import AnswerCache
 from app.maps.addresses.geocoder import GeocoderUnavailableError
 from app.maps.addresses.opening import opened_addresses
-from app.maps.addresses.setting import GeocoderSettingError, Server, read_setting
+from app.maps.addresses.setting import AddressServer, GeocoderSettingError, read_setting
 from app.serving.settings import Settings
 from tests.app.maps.addresses.stated import StatedGeocoder, place
 from tests.conftest import PATIENCE
@@ -116,7 +116,7 @@ def test_several_geocoders_are_read_in_order(helsinki: Path, tmp_path: Path) -> 
     stated = (f"extract:{helsinki}, photon:http://localhost:2322?language=fi,"
               "pelias:https://host/v1?key=a,b&at_once=2")
     assert [type(source).__name__ for source in read_setting(stated)] == [
-        "Extract", "Server", "Server"]
+        "AddressExtract", "AddressServer", "AddressServer"]
     geocoders = opened_addresses(Settings(geocoder=stated, data_dir=tmp_path))
     assert geocoders.names == ("extract", "photon", "pelias")
     geocoders.close()
@@ -130,5 +130,5 @@ def test_several_geocoders_are_read_in_order(helsinki: Path, tmp_path: Path) -> 
 ])
 def test_public_servers_are_asked_as_seldom_as_they_want(stated: str, gap: float) -> None:
     (source,) = read_setting(stated)
-    assert isinstance(source, Server)
+    assert isinstance(source, AddressServer)
     assert source.server.gap == gap

@@ -6,17 +6,17 @@ from typing import Any
 import pytest
 from pydantic import TypeAdapter
 
-from app.maps.airspace.applying import NEVER_ENDS, Span, applies
+from app.maps.airspace.applying import NEVER_ENDS, PlannedSpan, applies
 from app.maps.airspace.reading import read_zones
 from app.schemas.airspace import Zones
 from tests.app.maps.airspace.published import ed269, zone
 
 ZONES: TypeAdapter[Any] = TypeAdapter(Zones)
 THURSDAY = datetime(2026, 11, 26, 8, tzinfo=UTC)
-SHIFT = Span(THURSDAY, THURSDAY + timedelta(hours=8))  # until 16:00
+SHIFT = PlannedSpan(THURSDAY, THURSDAY + timedelta(hours=8))  # until 16:00
 
 
-def applied(*applicability: dict[str, Any], span: Span | None = SHIFT) -> bool:
+def applied(*applicability: dict[str, Any], span: PlannedSpan | None = SHIFT) -> bool:
     reading = read_zones(ZONES.validate_python(ed269(zone(applicability=list(applicability)))))
     assert reading.doubts == []
     return applies(reading.zones[0].periods, span)
@@ -65,7 +65,7 @@ def test_whenever_it_is_planned_every_zone_applies() -> None:
 
 
 def test_a_plan_without_end_meets_all_that_lies_ahead() -> None:
-    span = Span(THURSDAY, NEVER_ENDS)
+    span = PlannedSpan(THURSDAY, NEVER_ENDS)
     assert applied(weekly(["WED"], "10:00Z", "11:00Z"), span=span)
     assert applied(between("2027-05-01T00:00:00Z", None), span=span)
     assert not applied(between(None, "2026-11-25T00:00:00Z"), span=span)

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from app.maps.roads.answers import Part, Snap, joined, snapped_at
+from app.maps.roads.answers import BlockAnswer, Snap, joined, snapped_at
 from app.maps.roads.engine import RoadsAnswerError, RoadTable, whole
 
 pytestmark = pytest.mark.slow
@@ -14,7 +14,7 @@ PLACES = np.array([[24.94, 60.17], [24.940001, 60.17]])
 def answered(seconds: float, metres: float) -> RoadTable:
     durations, distances = np.array([[0, seconds], [1, 0]]), np.array([[0, metres], [1, 0]])
     (block,) = whole(2)
-    return joined(PLACES, [(block, Part(durations, distances, PLACES, PLACES))])
+    return joined(PLACES, [(block, BlockAnswer(durations, distances, PLACES, PLACES))])
 
 
 def test_less_than_nothing_between_places_close_together_is_nothing() -> None:

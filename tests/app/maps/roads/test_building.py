@@ -10,7 +10,7 @@ from typer.testing import CliRunner
 from app.cli.commands import cli
 from app.maps.roads.building import NOTES, UNFINISHED, BuildError, build_roads, find_build
 from app.maps.roads.setting import Extract
-from app.maps.roads.stages import CONTRACTING, Progress
+from app.maps.roads.stages import CONTRACTING, StageProgress
 from app.maps.roads.tools import Tools, ToolsMissingError, find_tools
 from tests.app.maps.roads.conftest import HELSINKI
 
@@ -81,7 +81,7 @@ def test_an_extract_that_is_missing_is_named(tmp_path: Path, tools: Tools) -> No
 
 
 def test_progress_follows_what_a_tool_writes() -> None:
-    progress = Progress(CONTRACTING)
+    progress = StageProgress(CONTRACTING)
     lines = ("[info] Loading edge-expanded graph representation", " 50% ",
              "[info] initializing node priorities...", " 50% ", " 10% ",
              "[info] initializing node priorities...", "[info] Contraction took 0.5 sec")

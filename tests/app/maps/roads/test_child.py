@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from app.maps.roads.building import Build
-from app.maps.roads.child import Child
+from app.maps.roads.child import RoutingChild
 from app.maps.roads.embedded import EmbeddedRoads
 from app.maps.roads.engine import RoadsUnavailableError
 from app.maps.roads.osrm import Osrm
@@ -97,7 +97,8 @@ def test_a_child_does_not_outlive_its_service(prepared_build: Build, tools: Tool
 
 def test_a_child_that_cannot_live_is_said_to_be_unavailable(prepared_build: Build, tools: Tools,
                                                             ) -> None:
-    child = Child(tools.routed, prepared_build.data.with_name("nothing.osrm"), 1, first_wait=0.01)
+    child = RoutingChild(tools.routed, prepared_build.data.with_name("nothing.osrm"), 1,
+                         first_wait=0.01)
     try:
         with pytest.raises(RoadsUnavailableError, match="aren't ready"):
             child.url(time.perf_counter() + 1.0)
@@ -107,7 +108,7 @@ def test_a_child_that_cannot_live_is_said_to_be_unavailable(prepared_build: Buil
 
 
 def test_a_child_without_its_program_is_said_to_be_unavailable(prepared_build: Build) -> None:
-    child = Child(Path("/nowhere/osrm-routed"), prepared_build.data, 1, first_wait=0.01)
+    child = RoutingChild(Path("/nowhere/osrm-routed"), prepared_build.data, 1, first_wait=0.01)
     try:
         with pytest.raises(RoadsUnavailableError, match="aren't ready"):
             child.url(time.perf_counter() + 0.5)
@@ -116,7 +117,8 @@ def test_a_child_without_its_program_is_said_to_be_unavailable(prepared_build: B
 
 
 def test_nobody_waits_for_a_child_who_wants_to_stop(prepared_build: Build, tools: Tools) -> None:
-    child = Child(tools.routed, prepared_build.data.with_name("nothing.osrm"), 1, first_wait=60.0)
+    child = RoutingChild(tools.routed, prepared_build.data.with_name("nothing.osrm"), 1,
+                         first_wait=60.0)
     try:
         with pytest.raises(RoadsUnavailableError):
             child.url(time.perf_counter() + 600, lambda: True)

@@ -13,7 +13,7 @@ from app.maps.roads.engine import RoadsUnavailableError
 from app.maps.roads.roads import Roads
 from app.maps.roads.tools import Tools
 from app.records.jobs import planning
-from app.records.jobs.asked import Asking
+from app.records.jobs.asked import TaskMaker
 from app.records.jobs.planning import PlanWork
 from app.records.jobs.reading import JobReader
 from app.records.jobs.rows import JobRow, NewJob
@@ -49,7 +49,7 @@ class Office:
         self.store.prepare()
         reader = JobReader(planner.policies, settings, roads)
         self.queue: list[str] = []
-        asking = Asking(lambda row: reader.plan_request(self.store, row), 1, roads)
+        asking = TaskMaker(lambda row: reader.plan_request(self.store, row), 1, roads)
         returning = Returning(*(partial(self._queued, where) for where in ("back", "off", "out")))
         self.work = PlanWork(planned_by(planner, settings, roads).begin, self.store, asking,
                              returning, lambda _: None, WHOLE)

@@ -8,12 +8,12 @@ from urllib.request import urlopen
 import numpy as np
 import pytest
 
-from app.maps.remote.asking import Asking
+from app.maps.remote.asking import RemoteServer
 from app.maps.roads import osrm_tables
-from app.maps.roads.answers import Part
+from app.maps.roads.answers import BlockAnswer
 from app.maps.roads.engine import RoadsAnswerError, RoadTable
 from app.maps.roads.osrm import Osrm
-from app.maps.roads.osrm_tables import Asked, TableForm, floats, in_floats, in_json, quickest
+from app.maps.roads.osrm_tables import AskedBlock, TableForm, floats, in_floats, in_json, quickest
 from app.maps.roads.server import RoadServer
 from model.problem import FloatArray
 from tests.app.maps.roads.conftest import Places
@@ -49,7 +49,7 @@ def test_only_large_tables_are_asked_for_in_floats(
         helsinki_osrm: str, helsinki_places: Places, monkeypatch: pytest.MonkeyPatch) -> None:
     asked: list[int] = []
 
-    def noting(asking: Asking, some: Sequence[Asked], *times: Any) -> list[Part]:
+    def noting(asking: RemoteServer, some: Sequence[AskedBlock], *times: Any) -> list[BlockAnswer]:
         asked.extend(len(one.places) for one in some)
         return in_floats(asking, some, *times)
 

@@ -2,7 +2,7 @@ from pathlib import Path
 
 import pytest
 
-from app.maps.roads.setting import Extract, Server, SettingError, read_setting
+from app.maps.roads.setting import Extract, RoadsServer, SettingError, read_setting
 
 pytestmark = pytest.mark.slow
 
@@ -16,10 +16,10 @@ def test_extracts_and_servers_are_read_by_profile() -> None:
         "truck=berlin.osm.pbf, car=osrm:http://localhost:5000,bike=bicycle:/maps/b,c.osm.pbf,"
         "van=valhalla:https://roads.example.org/v,hgv=ors:https://api.example.org") == {
             "truck": Extract(Path("berlin.osm.pbf"), "truck"),
-            "car": Server("osrm", "http://localhost:5000"),
+            "car": RoadsServer("osrm", "http://localhost:5000"),
             "bike": Extract(Path("/maps/b,c.osm.pbf"), "bicycle"),
-            "van": Server("valhalla", "https://roads.example.org/v"),
-            "hgv": Server("ors", "https://api.example.org")}
+            "van": RoadsServer("valhalla", "https://roads.example.org/v"),
+            "hgv": RoadsServer("ors", "https://api.example.org")}
 
 
 @pytest.mark.parametrize(("text", "remedy"), [

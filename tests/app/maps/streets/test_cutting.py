@@ -4,20 +4,20 @@ import numpy as np
 import pytest
 import shapely
 
-from app.maps.streets.cutting import EXTENT, MARGIN, Piece, named_pieces, pieces
+from app.maps.streets.cutting import EXTENT, MARGIN, TilePiece, named_pieces, pieces
 from app.maps.streets.kinds import KINDS, MOST_ZOOM
-from app.maps.streets.reading import Named
+from app.maps.streets.reading import NamedLines
 
 TILE = 1 / (1 << MOST_ZOOM)
 
 
-def tiles(kind: str, *shapes: shapely.Geometry) -> dict[tuple[int, int, int], Piece]:
+def tiles(kind: str, *shapes: shapely.Geometry) -> dict[tuple[int, int, int], TilePiece]:
     """Return the pieces of shapes by tile."""
     return {(piece.zoom, piece.x, piece.y): piece
             for _, piece in pieces({kind: np.array(shapes)})}
 
 
-def shapes_of(piece: Piece) -> list[np.ndarray]:
+def shapes_of(piece: TilePiece) -> list[np.ndarray]:
     """Return a piece's lines in the map's own coordinates."""
     steps = [np.array(line).reshape(-1, 2).cumsum(axis=0) for line in piece.lines]
     return [(places / EXTENT + (piece.x, piece.y)) / (1 << piece.zoom) for places in steps]
@@ -77,7 +77,7 @@ def test_tiles_together_hold_all_of_random_lines() -> None:
 def test_names_are_in_every_tile_that_their_line_crosses() -> None:
     line = shapely.LineString([(1000.5 * TILE, 2000.5 * TILE), (1002.5 * TILE, 2000.5 * TILE)])
     short = shapely.LineString([(1000.5 * TILE, 2000.6 * TILE), (1000.52 * TILE, 2000.6 * TILE)])
-    named = Named(["Long Street", "Nook"], np.array([line, short]))
+    named = NamedLines(["Long Street", "Nook"], np.array([line, short]))
     found = [(kind.name, name, piece.zoom, piece.x)
              for kind, name, piece in named_pieces({"main": named})]
     assert [each for each in found if each[2] == MOST_ZOOM] == [

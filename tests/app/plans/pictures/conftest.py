@@ -7,7 +7,7 @@ from typing import Any
 import pytest
 from pydantic_core import to_json
 
-from app.plans.pictures.scene import Scene
+from app.plans.pictures.scene import DrawnPlan
 from app.plans.service import PlanService
 from app.requests.plan_reading import parse_plan
 from app.requests.reading import read_request
@@ -15,7 +15,7 @@ from app.schemas.openapi import EXAMPLES_DIR
 from tests.app.conftest import FirstFitPlanner
 
 Request = dict[str, Any]
-Drawn = Callable[..., Scene]
+Drawn = Callable[..., DrawnPlan]
 
 
 def planned(request: Request) -> Request:
@@ -24,10 +24,10 @@ def planned(request: Request) -> Request:
     return dict(json.loads(service.reply_to(read_request(to_json(request), None), 0.0)))
 
 
-def scene_of(request: Request, plan: Request | None = None) -> Scene:
+def scene_of(request: Request, plan: Request | None = None) -> DrawnPlan:
     """Return what a picture shows of a plan, or of one made for it."""
-    return Scene.judged(read_request(to_json(request), None),
-                        parse_plan(to_json(planned(request) if plan is None else plan)))
+    return DrawnPlan.judged(read_request(to_json(request), None),
+                            parse_plan(to_json(planned(request) if plan is None else plan)))
 
 
 @pytest.fixture

@@ -11,7 +11,7 @@ from app.console.routes import STATIC_DIR
 from app.records.dispatches.doubts import Answers
 from app.records.dispatches.going_on import GROUNDING, OnTheRoad, going_on
 from app.records.dispatches.schemas import DispatchRequest, DoubtfulReply, GoingOnReply
-from app.records.dispatches.standing import Told
+from app.records.dispatches.standing import ToldStep
 from app.records.dispatches.steps import StepMaker
 from tests.app.records.dispatches.days import (
     DEPART, DOOR, FIRST, LAUNCH, NEXT_DOOR, PLAN, PROBLEM, RECOVER, RETURN, SECOND, Data,
@@ -23,7 +23,7 @@ pytestmark = pytest.mark.slow
 REQUEST = DispatchRequest.model_validate({"problem": PROBLEM, "plan": PLAN}, strict=False)
 
 
-def gone_on(told: dict[str, dict[str, Told]], now: float, served: Iterable[str] = (),
+def gone_on(told: dict[str, dict[str, ToldStep]], now: float, served: Iterable[str] = (),
             unserved: Iterable[str] = ()) -> GoingOnReply:
     """Return how to plan on, by what was told of each vehicle, and of whom nobody told."""
     maker = StepMaker(REQUEST.problem)
@@ -43,9 +43,9 @@ def times(trip: Data) -> list[tuple[str, float, float]]:
     return [(stop["id"], stop["arrival"], stop["departure"]) for stop in trip["stops"]]
 
 
-def done(times: dict[str, float]) -> dict[str, Told]:
+def done(times: dict[str, float]) -> dict[str, ToldStep]:
     """Return what was told of steps."""
-    return {step: Told("done", time) for step, time in times.items()}
+    return {step: ToldStep("done", time) for step, time in times.items()}
 
 
 def test_vehicle_that_told_nothing_is_where_the_plan_has_it() -> None:
@@ -80,7 +80,7 @@ def test_customer_passed_over_is_still_to_be_served() -> None:
 
 
 def test_whoever_was_not_served_is_open_again_once_the_parcel_is_back() -> None:
-    told = {**done({DEPART: 30_000}), DOOR: Told("failed", 30_200, "Nobody there")}
+    told = {**done({DEPART: 30_000}), DOOR: ToldStep("failed", 30_200, "Nobody there")}
     reply = gone_on({"van-1": told}, 30_250)
     trip = route_of(reply, "van-1")
     assert [stop["id"] for stop in trip["stops"]] == ["hub", "E", "hub"]
@@ -90,7 +90,7 @@ def test_whoever_was_not_served_is_open_again_once_the_parcel_is_back() -> None:
 
 
 def test_vehicle_that_broke_down_does_nothing_more() -> None:
-    broken = {"vehicle": Told("failed", 30_250, "Broken down")}
+    broken = {"vehicle": ToldStep("failed", 30_250, "Broken down")}
     reply = gone_on({"van-1": {**done({DEPART: 30_000, DOOR: 30_200}), **broken}}, 30_300)
     assert reply.broken == reply.replan["unavailable"] == ["van-1"]
     assert times(route_of(reply, "van-1"))[1][2] == 30_200
@@ -116,7 +116,7 @@ def test_whom_the_plan_has_as_served_and_nobody_told_is_in_doubt() -> None:
 
 
 def test_broken_vehicle_has_served_those_alone_of_whom_it_told() -> None:
-    broken = {"vehicle": Told("failed", 30_390, "Broken down")}
+    broken = {"vehicle": ToldStep("failed", 30_390, "Broken down")}
     reply = gone_on({"van-1": broken, "truck-1": done({DEPART: 30_000, FIRST: 30_150}) | broken},
                     30_400)
     assert doubts(reply) == {"D": False, "E": False}
@@ -209,7 +209,7 @@ def test_orders_of_a_broken_vehicle_that_told_nothing_are_planned_again(
 
 
 def test_drone_that_was_not_launched_leaves_its_customers_open() -> None:
-    told = {**done({DEPART: 30_000}), LAUNCH: Told("failed", 30_140, "No wind")}
+    told = {**done({DEPART: 30_000}), LAUNCH: ToldStep("failed", 30_140, "No wind")}
     reply = gone_on({"truck-1": told}, 30_150)
     assert route_of(reply, "truck-1")["sorties"] == []
     assert [(failed.customer, failed.is_open) for failed in reply.failed] == [("C", True)]
@@ -221,7 +221,7 @@ def test_drone_that_was_not_launched_leaves_its_customers_open() -> None:
 ])
 def test_drone_that_is_lost_is_launched_no_more(step: str, reason: str,
                                                 grounded: list[str]) -> None:
-    told = {**done({DEPART: 30_000}), step: Told("failed", 30_450, reason)}
+    told = {**done({DEPART: 30_000}), step: ToldStep("failed", 30_450, reason)}
     reply = gone_on({"truck-1": told}, 30_460)
     assert reply.grounded == reply.replan.get("unavailable", []) == grounded
 
@@ -232,7 +232,7 @@ def test_what_grounds_a_drone_is_what_the_page_offers() -> None:
 
 
 def test_stop_where_a_drone_is_met_stays_though_nobody_was_served() -> None:
-    told = {**done({DEPART: 30_000, LAUNCH: 30_150}), FIRST: Told("failed", 30_200, "Shut")}
+    told = {**done({DEPART: 30_000, LAUNCH: 30_150}), FIRST: ToldStep("failed", 30_200, "Shut")}
     reply = gone_on({"truck-1": told}, 30_210)
     assert [stop["id"] for stop in route_of(reply, "truck-1")["stops"]] == ["hub", "A", "B", "hub"]
     assert [(failed.customer, failed.is_open) for failed in reply.failed] == [("A", False)]
@@ -261,13 +261,13 @@ def test_flights_are_timed_by_what_was_told() -> None:
     {"truck-1": done({RECOVER: 30_050}), "van-1": done({RETURN: 30_010})},
     {"truck-1": done({DEPART: 29_000, LAUNCH: 29_001, FIRST: 29_002, SECOND: 29_003,
                      RECOVER: 29_004, RETURN: 29_005})},
-    {"van-1": {DOOR: Told("failed", 30_100, "x"), NEXT_DOOR: Told("failed", 30_050, "x")}},
-    {"van-1": {DOOR: Told("failed", 30_100, "x"), NEXT_DOOR: Told("failed", 30_150, "x"),
-               RETURN: Told("done", 30_200)}},
+    {"van-1": {DOOR: ToldStep("failed", 30_100, "x"), NEXT_DOOR: ToldStep("failed", 30_050, "x")}},
+    {"van-1": {DOOR: ToldStep("failed", 30_100, "x"), NEXT_DOOR: ToldStep("failed", 30_150, "x"),
+               RETURN: ToldStep("done", 30_200)}},
 ])
 @pytest.mark.parametrize("now", [30_105, 30_400, 40_000])
 def test_whatever_was_told_can_be_gone_on_from(
-        client: httpx.Client, told: dict[str, dict[str, Told]], now: float) -> None:
+        client: httpx.Client, told: dict[str, dict[str, ToldStep]], now: float) -> None:
     reply = gone_on(told, now)
     served = {failed.customer for failed in reply.failed if failed.is_open}
     plan = reply.replan["plan"]

@@ -7,7 +7,7 @@ import pytest
 
 from app.records.dispatches.going_on import OnTheRoad, going_on
 from app.records.dispatches.schemas import DispatchRequest, GoingOnReply
-from app.records.dispatches.standing import Told
+from app.records.dispatches.standing import ToldStep
 from app.records.dispatches.steps import StepMaker
 from app.requests.reading import read_request
 from app.schemas.plan import PlanInput
@@ -76,7 +76,7 @@ def test_launch_site_that_is_none_is_refused(client: httpx.Client, name: str) ->
     assert reply.status_code == 422, reply.text
 
 
-def gone_on(told: dict[str, Told], now: float) -> GoingOnReply:
+def gone_on(told: dict[str, ToldStep], now: float) -> GoingOnReply:
     """Return how to plan on, by what the driver told."""
     request = DispatchRequest.model_validate({"problem": SITES, "plan": SITES_PLAN}, strict=False)
     (route,) = request.plan.routes
@@ -91,25 +91,25 @@ def stops_of(reply: GoingOnReply) -> list[tuple[str, str]]:
 
 
 def test_launch_that_was_told_times_its_stop() -> None:
-    reply = gone_on({DEPART: Told("done", 30_000), LAUNCH: Told("done", 30_500)}, 30_600)
+    reply = gone_on({DEPART: ToldStep("done", 30_000), LAUNCH: ToldStep("done", 30_500)}, 30_600)
     trip = reply.replan["plan"]["routes"][0]["trips"][0]
     assert trip["stops"][2]["departure"] == trip["sorties"][0]["launch_time"] == 30_500
     assert trip["stops"][3]["arrival"] == 30_600
 
 
 def test_nobody_stops_where_nothing_was_launched() -> None:
-    reply = gone_on({FIRST: Told("done", 30_160), LAUNCH: Told("failed", 30_350, "Wind"),
-                     SECOND_LAUNCH: Told("failed", 30_400, "Wind")}, 30_500)
+    reply = gone_on({FIRST: ToldStep("done", 30_160), LAUNCH: ToldStep("failed", 30_350, "Wind"),
+                     SECOND_LAUNCH: ToldStep("failed", 30_400, "Wind")}, 30_500)
     assert stops_of(reply) == [("depot", "hub"), ("customer", "A"), ("depot", "hub")]
     assert [(failed.customer, failed.is_open) for failed in reply.failed] == [
         ("C", True), ("B", True)]
-    reply = gone_on({LAUNCH: Told("failed", 30_350, "Wind")}, 30_400)
+    reply = gone_on({LAUNCH: ToldStep("failed", 30_350, "Wind")}, 30_400)
     assert ("launch_site", "pier") not in stops_of(reply)
     assert ("launch_site", "A") in stops_of(reply)
 
 
 def test_stop_that_the_truck_comes_back_to_stays_though_nobody_was_served() -> None:
-    reply = gone_on({FIRST: Told("failed", 30_160, "Shut")}, 30_200)
+    reply = gone_on({FIRST: ToldStep("failed", 30_160, "Shut")}, 30_200)
     assert ("customer", "A") in stops_of(reply)
     assert [(failed.customer, failed.is_open) for failed in reply.failed] == [("A", False)]
 
@@ -122,7 +122,7 @@ def test_truck_goes_home_from_where_its_only_launch_failed(client: httpx.Client)
         "sorties": [flight("C", 1, 1, 30_340, 30_450)]}]}]}
     request = DispatchRequest.model_validate({"problem": problem, "plan": plan}, strict=False)
     (route,) = request.plan.routes
-    told = {DEPART: Told("done", 30_000), LAUNCH: Told("failed", 30_340, "Wind")}
+    told = {DEPART: ToldStep("done", 30_000), LAUNCH: ToldStep("failed", 30_340, "Wind")}
     reply = going_on(request.plan, {"truck-1": OnTheRoad(
         StepMaker(request.problem).steps(route), told)}, 30_400)
     assert stops_of(reply) == [("depot", "hub"), ("launch_site", "pier"), ("depot", "hub")]
@@ -130,22 +130,22 @@ def test_truck_goes_home_from_where_its_only_launch_failed(client: httpx.Client)
     assert again.status_code == 200, again.text
 
 
-DONE = {step: Told("done", time) for step, time in (
+DONE = {step: ToldStep("done", time) for step, time in (
     (DEPART, 30_010.0), (FIRST, 30_180.0), (LAUNCH, 30_400.0), (RECOVER, 30_700.0),
     (SECOND_LAUNCH, 30_760.0), (SECOND_RECOVERY, 31_000.0), (RETURN, 31_000.0))}
 
 
 @pytest.mark.parametrize("told", [
     *(dict(list(DONE.items())[:count]) for count in range(1, len(DONE) + 1)),
-    {LAUNCH: Told("failed", 30_350, "Wind")},
-    {DEPART: DONE[DEPART], LAUNCH: Told("failed", 30_350, "Wind"),
-     SECOND_LAUNCH: Told("failed", 30_400, "Wind")},
-    {FIRST: Told("failed", 30_160, "Shut"), LAUNCH: Told("failed", 30_161, "Wind"),
-     SECOND_LAUNCH: Told("failed", 30_161, "Wind")},
-    {FIRST: Told("failed", 30_160, "Shut"), LAUNCH: DONE[LAUNCH]},
+    {LAUNCH: ToldStep("failed", 30_350, "Wind")},
+    {DEPART: DONE[DEPART], LAUNCH: ToldStep("failed", 30_350, "Wind"),
+     SECOND_LAUNCH: ToldStep("failed", 30_400, "Wind")},
+    {FIRST: ToldStep("failed", 30_160, "Shut"), LAUNCH: ToldStep("failed", 30_161, "Wind"),
+     SECOND_LAUNCH: ToldStep("failed", 30_161, "Wind")},
+    {FIRST: ToldStep("failed", 30_160, "Shut"), LAUNCH: DONE[LAUNCH]},
 ])
 @pytest.mark.parametrize("now", [30_050, 30_330, 30_500, 40_000])
-def test_whatever_was_told_can_be_planned_on_from(client: httpx.Client, told: dict[str, Told],
+def test_whatever_was_told_can_be_planned_on_from(client: httpx.Client, told: dict[str, ToldStep],
                                                   now: float) -> None:
     reply = gone_on(told, now)
     problem = SITES | {"replan": reply.replan}

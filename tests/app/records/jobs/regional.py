@@ -9,7 +9,7 @@ import pytest
 from pydantic_core import from_json, to_json
 from sqlalchemy import Engine
 
-from app.records.jobs.asked import Asking
+from app.records.jobs.asked import TaskMaker
 from app.records.jobs.divided import DividedWork
 from app.records.jobs.planning import PlanWork
 from app.records.jobs.reading import JobReader
@@ -93,7 +93,7 @@ class Office:
     def process(self) -> tuple[PlanWork, DividedWork]:
         """Return the work of a process."""
         reader = JobReader(self.planner.policies, self.settings)
-        asking = Asking(lambda row: reader.plan_request(self.store, row), 1)
+        asking = TaskMaker(lambda row: reader.plan_request(self.store, row), 1)
         returning = Returning(self.queue.append, self.queue.append, self.aside.append)
         begin = planned_by(self.planner, self.settings).begin
         plans = PlanWork(begin, self.store, asking, returning, self.tell, TERMS)

@@ -10,7 +10,7 @@ import pytest
 
 from app.database.durable import connect
 from app.records.jobs import divided, order, planning, rounds
-from app.records.jobs.asked import Asking
+from app.records.jobs.asked import TaskMaker
 from app.records.jobs.errors import UnknownJobError
 from app.records.jobs.incumbent import Incumbent
 from app.records.jobs.queues import Queues
@@ -144,7 +144,7 @@ def test_region_that_comes_back_late_is_refused(office: Office,
 
 def _problem_and_plan(office: Office) -> tuple[Problem, Solution]:
     reader = JobReader(office.planner.policies, office.settings)
-    asked = Asking(lambda row: reader.plan_request(office.store, row), 1).make(
+    asked = TaskMaker(lambda row: reader.plan_request(office.store, row), 1).make(
         office.row(), lambda: False)
     return asked.task.problem, asked.task.read(office.result())
 

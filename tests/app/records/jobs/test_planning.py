@@ -12,7 +12,7 @@ from app.database.durable import connect
 from app.maps.roads.roads import Roads
 from app.plans.task import Task, task_of
 from app.records.jobs import asked, order, planning
-from app.records.jobs.asked import Asking
+from app.records.jobs.asked import TaskMaker
 from app.records.jobs.planning import PlanWork
 from app.records.jobs.reading import JobReader
 from app.records.jobs.rows import JobRow, NewJob, Standing
@@ -59,7 +59,7 @@ class Desk:
     def process(self, planner: SteppingPlanner = PLANNER) -> PlanWork:
         """Return the work of a process."""
         reader = JobReader(planner.policies, self.settings)
-        asking = Asking(lambda row: reader.plan_request(self.store, row), 1)
+        asking = TaskMaker(lambda row: reader.plan_request(self.store, row), 1)
         returning = Returning(self.put_back.append, self.put_off.append, self.shared_out.append)
         begin = planned_by(planner, self.settings).begin
         return PlanWork(begin, self.store, asking, returning, lambda _: None, WHOLE)

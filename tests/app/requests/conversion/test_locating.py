@@ -11,7 +11,7 @@ from app.maps.addresses.geocoder import (
     Candidates, GeocoderError, GeocoderStoppedError, GeocoderUnavailableError,
 )
 from app.maps.roads.roads import NO_ROADS, Roads
-from app.plans.pictures.scene import Scene
+from app.plans.pictures.scene import DrawnPlan
 from app.plans.task import Task, task_of
 from app.requests.conversion.preparing import Preparing, StoppedError
 from app.requests.reading import read_request
@@ -176,6 +176,6 @@ def test_wrong_locations(location: Any, code: str, path: str) -> None:
 def test_pictures_draw_where_addresses_were_found() -> None:
     stated = request("A 1", depot={"address": "B 2"})
     reply = to_json(replied(planned(stated)))
-    drawn = Scene.replied(read_request(to_json(stated), None), reply)
+    drawn = DrawnPlan.replied(read_request(to_json(stated), None), reply)
     assert drawn.layout is not None
     assert json.loads(reply)["addresses"][0]["address"] == "B 2"

@@ -10,7 +10,9 @@ import pytest
 from fastapi import Request
 
 from app.serving.access.keys import KeyStore
-from app.serving.access.limits import Limits, Rates, TooManyRequestsError, client_address
+from app.serving.access.limits import (
+    RateLimits, RequestCounter, TooManyRequestsError, client_address,
+)
 from app.serving.settings import Settings
 from tests.app.conftest import FirstFitPlanner, opened, ready
 from tests.conftest import PATIENCE
@@ -28,7 +30,7 @@ def request_from(host: str | None) -> Request:
                     "client": None if host is None else (host, 1)})
 
 
-def headers_of(limits: Limits, host: str, key: str | None = None) -> dict[str, str]:
+def headers_of(limits: RequestCounter, host: str, key: str | None = None) -> dict[str, str]:
     """Return what the reply to one more request tells of its limit."""
     request = request_from(host)
     limits.take(request, key or client_address(request), PLAN)
@@ -84,7 +86,7 @@ def test_wrong_keys_are_slowed_down_and_the_right_one_is_let_in_all_the_same(
 
 @pytest.mark.usefixtures("same_minute")
 def test_addresses_are_counted_apart_and_ipv6_networks_together() -> None:
-    limits = Limits(Rates(plans=1))
+    limits = RequestCounter(RateLimits(plans=1))
     for host in ("10.0.0.1", "10.0.0.2", "2001:db8::1", "2001:db8:0:1::1"):
         assert headers_of(limits, host)["RateLimit-Remaining"] == "0"
     with pytest.raises(TooManyRequestsError):
@@ -102,7 +104,7 @@ def test_addresses_stand_for_whom_they_belong_to(host: str | None, address: str)
 def test_whoever_waits_as_told_is_let_in(monkeypatch: pytest.MonkeyPatch) -> None:
     clock = [1_800_000_007.0]
     monkeypatch.setattr(time, "time", lambda: clock[0])
-    limits = Limits(Rates(plans=5))
+    limits = RequestCounter(RateLimits(plans=5))
     refused = 0
     for _ in range(400):
         clock[0] += 1.3
@@ -118,7 +120,7 @@ def test_whoever_waits_as_told_is_let_in(monkeypatch: pytest.MonkeyPatch) -> Non
 def test_counts_take_no_memory_for_good(monkeypatch: pytest.MonkeyPatch) -> None:
     clock = [1_800_000_007.0]
     monkeypatch.setattr(time, "time", lambda: clock[0])
-    limits = Limits(Rates(failures=1))
+    limits = RequestCounter(RateLimits(failures=1))
     for number in range(2000):
         limits.count_failure(f"10.0.{number // 256}.{number % 256}")
     storage: Any = limits._limiter.storage

@@ -11,7 +11,7 @@ from app.formats.vroom.places import find_places
 from app.formats.vroom.reading import read_request
 from app.formats.vroom.translate import translate
 from model.dialects.vroom.checking import drive, route_faults
-from model.dialects.vroom.places import Places
+from model.dialects.vroom.places import Sites
 from model.dialects.vroom.request import Request
 
 Data = dict[str, Any]
@@ -52,7 +52,7 @@ def _matrix(draw: random.Random, size: int, least: int, most: int) -> list[list[
             for i in range(size)]
 
 
-def read(stated: Data) -> tuple[Request, Places]:
+def read(stated: Data) -> tuple[Request, Sites]:
     """Return a request in the planner's words."""
     request = read_request(to_json(stated), 100, 100)
     return translate(request), find_places(request, {})

@@ -6,7 +6,7 @@ import pytest
 
 from model.dialects.vroom.exact import best_routes, is_few
 from model.dialects.vroom.kinds import find_kinds
-from model.dialects.vroom.timing import Driver
+from model.dialects.vroom.timing import RouteTimer
 from tests.model.dialects.vroom.drawn import Data, best_value, drawn_request, read
 from tests.seeds import seeds
 
@@ -19,7 +19,7 @@ def value_of_best(stated: Data) -> tuple[int, int, int]:
     routes = best_routes(request, places, kinds, range(len(request.jobs)), vehicles,
                          lambda: False)
     assert routes is not None
-    timed = [Driver(request, places, kinds[kind].vehicles[0]).drive(jobs)
+    timed = [RouteTimer(request, places, kinds[kind].vehicles[0]).drive(jobs)
              for kind, its_routes in routes.items() for jobs in its_routes]
     served = [job for route in timed if route is not None for job in route.jobs]
     assert len(served) == len(set(served))
