@@ -12,13 +12,15 @@ INSTALL := $(BIN)/python .ci/install.py
 # On all cores, by `tests/conftest.py`; who is idle takes over what others have left. Threads of PyTorch's own would wait for
 # each other in vain. Tests of the engine find CMake there.
 PYTEST := PATH="$(CURDIR)/$(BIN):$$PATH" OMP_NUM_THREADS=1 $(BIN)/pytest --numprocesses auto --dist worksteal
+# What users don't run; `.ci/run` does.
+STUDIES := tests/benchmarks tests/test_contributing.py
 URL := http://$(HOST):$(PORT)
 # Modules are kept compiled whatever the environment says: each start loads hundreds of them.
 export PYTHONDONTWRITEBYTECODE =
 
 .DEFAULT_GOAL := help
 .NOTPARALLEL:
-.PHONY: help engine guide serve plan test test-quick prepared lint train bench bench-quick bench-rules latency study study-quick screenshots fuzz settings clean
+.PHONY: help engine guide serve plan test test-quick test-studies prepared lint train bench bench-quick bench-rules latency study study-quick screenshots fuzz settings clean
 
 help: ## List what can be made
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "make %-11s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
@@ -41,7 +43,10 @@ plan: .venv/serving engine ## Plan examples/table1.json, write plan.json and che
 	@echo "The plan is in plan.json."
 
 test: prepared .venv/testing engine guide ## Install what the tests need and run them
-	$(PYTEST)
+	$(PYTEST) $(STUDIES:%=--ignore=%)
+
+test-studies: .venv/testing engine guide ## Run the tests of benchmarks, and the commands of CONTRIBUTING.md
+	$(PYTEST) $(STUDIES)
 
 test-quick: .venv/testing engine guide ## Run many tests in under a minute, without browser, database and services
 	$(PYTEST) -m "not slow"
