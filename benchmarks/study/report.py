@@ -185,9 +185,9 @@ def _fleets(study: Study) -> str:
     return "\n".join([
         "## 3. Single and mixed fleets", "",
         "Trucks of 150 against as many as wanted of 100, 150 and 200, and of 100 or 200 alone. "
-        f"Means over {_num_cases(rows)} and {max(row.seed for row in rows)} seeds, ± the standard "
-        "deviation of the seeds' means. The working rate is each truck's, over 8 h.", "",
-        *tables.fleets_table(rows, trips), "", *findings.on_fleets(rows, trips),
+        f"Mean total cost of {_num_cases(rows)} and {max(row.seed for row in rows)} seeds, ± the "
+        "standard deviation of the seeds' means.", "",
+        *tables.totals_table(rows), "", *findings.on_fleets(rows, trips),
         *findings.on_search(rows), "",
         "![Total cost of each fleet, and the load of every trip](study/fleets.svg)", "",
         "Trips of the first case's best plans, as Tables 3 to 5 print them:", "",
@@ -233,6 +233,9 @@ def _longer_tables(study: Study) -> str:
     shown = findings.shown_trips(fleets, study.trips)
     parts = ["# The study's longer tables",
              "## Table 1 by turns", "\n".join(tables.turns_table(study.of("table1"))),
+             "## Single and mixed fleets",
+             "The working rate is each truck's, over 8 h.",
+             "\n".join(tables.fleets_table(fleets, study.trips)),
              "## The mixed fleet beside others, by the best seeds",
              "Means over cases, ± their standard deviation.",
              "\n".join(tables.against_table(fleets)),

@@ -105,6 +105,16 @@ def fleets_table(rows: Sequence[Planned], trips: Sequence[TripRow]) -> Lines:
                     lines, words=0)
 
 
+def totals_table(rows: Sequence[Planned]) -> Lines:
+    """Mean total cost of each size by fleet, and how much it spreads over seeds."""
+    lines = []
+    for size in sorted({row.customers for row in rows}):
+        totals = [over_seeds([row for row in rows if (row.customers, row.fleet) == (size, fleet)],
+                             lambda row: row.cost) for fleet in FLEETS]
+        lines.append([str(size), *(f"{cost:.1f} ± {deviation:.2f}" for cost, deviation in totals)])
+    return markdown(["customers", *FLEETS], lines, words=0)
+
+
 def _mean(rows: Sequence[Planned], value: Callable[[Planned], float]) -> str:
     return f"{statistics.fmean(value(row) for row in rows):.1f}"
 
