@@ -7,6 +7,7 @@ from typing import Any, Literal, cast
 from pydantic import BaseModel
 
 from app.schemas.errors import json_path
+from app.schemas.fields import MAX_AMOUNT
 from app.schemas.relation import RelationInput
 from app.schemas.request import PlanRequest
 from app.schemas.shipment import EndKind, ShipmentInput, end_name
@@ -23,7 +24,7 @@ CENT = 0.01
 
 
 class NowhereError(Exception):
-    """The request states nothing of that kind."""
+    """The request states nothing of that kind, or could not state so much."""
 
 
 @dataclass(frozen=True)
@@ -95,9 +96,11 @@ class Changing:
         """Return that a number grows: `to` what, where it isn't stated as a number."""
         *holder, name = keys
         value, stated = self.at(keys), self.at(tuple(holder)).model_fields_set
-        if name in stated and value is not None and not isinstance(value, Written):
+        if value is None or value + more > MAX_AMOUNT:
+            raise NowhereError
+        if name in stated and not isinstance(value, Written):
             return [(keys, {"by": more})]
-        return [(keys, {"to": self.written(keys, (value or 0) + more, is_instant)})]
+        return [(keys, {"to": self.written(keys, value + more, is_instant)})]
 
     def flyer(self, of: str) -> Keys:
         """Return where drones are stated, of several types those of an id."""

@@ -6,7 +6,7 @@ from dataclasses import replace
 from model.judge.lags import halts_of, starts_across, starts_of
 from model.judge.past import Vehicle
 from model.judge.rules import TimedTrip, Violation, seconds
-from model.problem import SINCE_PLAN_START, UNLIMITED, Lag, Problem, Relation
+from model.problem import MAX_QUANTITY, SINCE_PLAN_START, UNLIMITED, Lag, Problem, Relation
 from model.solution import Route, Solution
 
 
@@ -132,7 +132,7 @@ def who_waits(problem: Problem, solution: Solution, node: int) -> tuple[str, Pro
     for closes, opens in customer.gaps:
         soonest = opens if closes < soonest < opens else soonest
         latest = closes if closes < latest < opens else latest
-    if not lags or soonest > latest:
+    if not lags or soonest > min(latest, MAX_QUANTITY):
         return names, None if lags else problem
     gaps = tuple([(closes, opens) for closes, opens in customer.gaps
                   if soonest <= closes and opens <= latest])

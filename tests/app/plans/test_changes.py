@@ -115,10 +115,19 @@ def test_what_is_back_at_the_depot_is_changed_at_its_delivery(limit: str, change
     assert changing.changes(remedy_of(limit, quantity=60_000)) == [change]
 
 
+@pytest.mark.parametrize(("limit", "van"), [
+    ("overtime", {"overtime": {"max_duration": 10**9, "cost_per_hour": 1}}), ("shift", {}),
+    ("work", {"max_working_duration": 10**9 - 59})])
+def test_nothing_is_changed_to_what_a_request_can_not_state(limit: str, van: Request) -> None:
+    request = PlanRequest.model_validate_json(json.dumps(request_of({}, van)))
+    changing = Changing.of(request, "van", "A", is_shipment=False)
+    assert changing.changes(remedy_of(limit, quantity=60_000)) == []
+
+
 def test_nothing_is_changed_where_the_request_has_no_place_for_it() -> None:
     shipment = {"id": "s", "delivery": {"location": [6, 0]}, "pickups": [
         {"id": "farm", "amount": [1], "location": [2, 0]},
-        {"id": "mill", "amount": [1], "location": [3, 0]}]}
+        {"id": "mill", "amount": [1], "location": [3, 0], "time_window": {"latest": 60}}]}
     request = PlanRequest.model_validate_json(json.dumps(request_of({}, {}, shipments=[shipment])))
     changing = Changing.of(request, "van", "s", is_shipment=True)
     assert changing.changes(remedy_of("end_window", "pickup", 60_000)) == []

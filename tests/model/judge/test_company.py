@@ -3,8 +3,9 @@ from dataclasses import replace
 import pytest
 
 from model.judge.check import check
+from model.judge.company import who_waits
 from model.judge.timing import RouteDecision, TripDecision, schedule
-from model.problem import Relation
+from model.problem import MAX_QUANTITY, UNLIMITED, Relation
 from model.solution import Solution
 from tests.model.judge.test_check import A_THEN_B, C_BY_DRONE, codes, plan
 
@@ -65,3 +66,13 @@ def test_trucks_wait_for_who_is_served_before(
     start = {stop.node: stop.service_start for trip in made.routes[0].trips for stop in trip.stops}
     assert start[B] - start[A] >= waits
     assert not waits or start[B] - start[A] == waits
+
+
+def test_nobody_waits_for_longer_than_a_problem_states(tiny_problem, customers, truck):
+    late = replace(customers[0], earliest=MAX_QUANTITY, latest=UNLIMITED, served_by="truck")
+    free = [replace(each, latest=UNLIMITED, served_by="truck") for each in customers[1:]]
+    van = replace(truck, latest=UNLIMITED, last_by_shift=UNLIMITED, max_working_duration=None)
+    problem = replace(tiny_problem(late, *free, truck=van), relations=(
+        Relation("before", (A, B), min_lag=1, across=True),))
+    served = schedule(problem, RouteDecision(0, 0, (TripDecision((0, A, 0)),)))
+    assert who_waits(problem, Solution((served,), (B, C, D)), B) == (customers[0].id, None)
