@@ -11,9 +11,9 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Literal, NamedTuple
 
-from model.accepting import Accepted, Judge
-from model.accepting import Completed as Completed
-from model.accepting import PlanCheckError as PlanCheckError
+from model.judge.accepting import Accepted, Judge
+from model.judge.accepting import Completed as Completed
+from model.judge.accepting import PlanCheckError as PlanCheckError
 from model.judge.check import Evaluation
 from model.judge.memory import Memory
 from model.engine.alarm import Alarm

@@ -38,7 +38,7 @@ service a hundred times a second takes the processor from what is waited for."""
 
 Result = TypeVar("Result")
 
-WHERE_PLANS_ARE_REFUSED = "model.accepting", "model.dialects.vroom.planning"
+WHERE_PLANS_ARE_REFUSED = "model.judge.accepting", "model.dialects.vroom.planning"
 """Loggers that are told when the judge refuses a plan."""
 
 

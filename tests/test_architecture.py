@@ -22,9 +22,10 @@ MODEL = {
     "travel": "problem engine", "simulation": "problem solution engine",
     "policy": "problem engine simulation", "search": "problem solution engine",
     "together": "problem solution judge engine search",
-    "accepting": "problem solution judge",
-    "planner": "problem solution judge accepting engine simulation policy search together",
-    "replanning": "problem solution judge planner", "dialects": "problem solution judge planner",
+    "counsel": "problem solution judge",
+    "planner": "problem solution judge engine simulation policy search together",
+    "replanning": "problem solution judge counsel planner",
+    "dialects": "problem solution judge planner",
 }
 """What each folder and file of `model` imports of the others."""
 

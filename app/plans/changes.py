@@ -13,7 +13,7 @@ from app.schemas.request import PlanRequest
 from app.schemas.shipment import EndKind, ShipmentInput, end_name
 from app.schemas.times import Written
 from app.schemas.written import length_like
-from model.judge.remedy import LAST_WINDOW, Change, Remedy
+from model.counsel.remedy import LAST_WINDOW, Change, Remedy
 
 Data = dict[str, Any]
 Keys = tuple[str | int, ...]

@@ -16,8 +16,8 @@ from app.requests.conversion.ground import Ground
 from app.requests.conversion.places import PlacedRequest
 from app.requests.conversion.zones import ZoneVolume
 from app.schemas.request import PlanRequest
-from model.judge.flight_diagnoses import CLOSED, NO_FLIGHT
-from model.judge.remedy import remedy_of
+from model.counsel.flight_diagnoses import CLOSED, NO_FLIGHT
+from model.counsel.remedy import remedy_of
 from model.problem import UNLIMITED
 from model.travel.zones import WIDER_M
 

@@ -8,16 +8,16 @@ from app.plans.replies import (
 from app.plans.remedies import Remedies
 from app.plans.task import telling
 from app.requests.conversion.units import money, whole
-from model.judge.alternatives import Alternative, halt_of
-from model.judge.bench import Bench, Trial
-from model.judge.binding import Binding, Limit
+from model.counsel.alternatives import Alternative, halt_of
+from model.counsel.bench import Bench, Trial
+from model.counsel.binding import Binding, Limit
 from model.judge.clock import window_of
-from model.judge.explain import Reason
-from model.judge.group_moves import Unit
-from model.judge.idle_drones import Idle
+from model.counsel.explain import Reason
+from model.counsel.group_moves import Unit
+from model.counsel.idle_drones import Idle
 from model.judge.places import Found, find_place, halts
 from model.judge.rules import Violation
-from model.judge.worth import Worth
+from model.counsel.worth import Worth
 from model.planner import PlanResult
 from model.problem import Problem
 from model.solution import Cost, Solution, Stop, Visit

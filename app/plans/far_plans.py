@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 from app.maps.roads.engine import RoadsError
 from app.requests.conversion.far_legs import Estimates
 from app.schemas.errors import NoRoadsError
-from model.accepting import Completed, sound_routes
+from model.judge.accepting import Completed, sound_routes
 from model.judge.check import check
 from model.judge.memory import Memory
 from model.judge.past import Past

@@ -6,8 +6,8 @@ from dataclasses import dataclass, field, replace
 from app.requests.conversion.groups import Place, Roster
 from app.schemas.customer import VehiclesInput
 from app.schemas.request import PlanRequest
-from model.judge.explain import Reason
-from model.judge.remedy import Change
+from model.counsel.explain import Reason
+from model.counsel.remedy import Change
 
 
 @dataclass(frozen=True)

@@ -3,8 +3,8 @@
 from collections.abc import Callable, Sequence
 
 from app.plans.changes import Changing, Data
-from model.judge.explain import Reason
-from model.judge.remedy import Remedy
+from model.counsel.explain import Reason
+from model.counsel.remedy import Remedy
 
 SEVERAL = "SEVERAL"
 """Code of a remedy that changes several limits, which its parts tell one by one."""

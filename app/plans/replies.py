@@ -15,7 +15,7 @@ from app.schemas.shipment import end_name
 from model.judge.check import Evaluation
 from model.judge.chargers import most_charged
 from model.judge.hubs import batteries_taken
-from model.judge.explain import Reason, explain
+from model.counsel.explain import Reason, explain
 from model.judge.fairness import vehicles_lacking
 from model.judge.metrics import RouteMetrics, SortieMetrics, TripMetrics
 from model.planner import PlanOptions, PlanResult

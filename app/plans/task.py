@@ -40,12 +40,12 @@ from app.requests.warnings.warning import RequestWarning
 from app.schemas.errors import InputError, InvalidRequestError
 from app.schemas.request import PlanRequest, ReplanInput
 from app.schemas.response import PlanReply
-from model.judge.bench import Setting
+from model.counsel.bench import Setting
 from model.judge.check import Evaluation, JudgedRoute, check
-from model.judge.explain import Reason, explain
-from model.judge.more_trips import with_another_trip
+from model.counsel.explain import Reason, explain
+from model.counsel.more_trips import with_another_trip
 from model.judge.past import Vehicle
-from model.judge.remedy import Remedy
+from model.counsel.remedy import Remedy
 from model.judge.rules import Violation
 from model.planner import ALONE, Elapsed, Listener, Planner, PlanOptions, PlanResult
 from model.problem import Problem

@@ -5,9 +5,9 @@ from dataclasses import replace
 import numpy as np
 
 from model.judge.company import kept_off, who_decides
-from model.judge.explain import POSSIBLE, Reason, explain_type
+from model.counsel.explain import POSSIBLE, Reason, explain_type
 from model.judge.past import Past, Vehicle
-from model.judge.remedy import remedy_of
+from model.counsel.remedy import remedy_of
 from model.problem import Problem
 from model.replanning.remainder import Remainder
 from model.replanning.workers import vehicle_name

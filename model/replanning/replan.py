@@ -7,7 +7,7 @@ from dataclasses import dataclass, field, replace
 
 from model.judge.chargers import with_charging
 from model.judge.check import Evaluation, check, judge_route
-from model.judge.explain import Reason, explain_type, unexplained
+from model.counsel.explain import Reason, explain_type, unexplained
 from model.judge.memory import Memory
 from model.judge.past import Past, Vehicle, known_trips, parcels_aboard
 from model.judge.past_rules import PAST_RULES

@@ -9,7 +9,7 @@ from typing import Any
 import pytest
 from playwright.sync_api import Page
 
-from model.judge.remedy import CLAUSES
+from model.counsel.remedy import CLAUSES
 from tests.console.steps import STATIC, awaited
 
 pytestmark = pytest.mark.slow

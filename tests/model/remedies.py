@@ -4,8 +4,8 @@ from collections.abc import Callable
 from dataclasses import replace
 from typing import Any
 
-from model.judge.explain import Reason
-from model.judge.remedy import Change
+from model.counsel.explain import Reason
+from model.counsel.remedy import Change
 from model.problem import MICROJOULES_PER_WH, Customer, DroneType, Problem, VehicleType
 
 

@@ -9,7 +9,7 @@ import pytest
 from app.plans.changes import Changing
 from app.schemas.request import PlanRequest
 from examples.remedy import applied
-from model.judge.remedy import remedy_of
+from model.counsel.remedy import remedy_of
 from tests.app.plans.asking import planned
 
 Request = dict[str, Any]

@@ -8,7 +8,7 @@ import pytest
 
 from app.plans.changes import CHANGES, WHOSE, Changing
 from app.schemas.request import PlanRequest
-from model.judge.remedy import CLAUSES, Change
+from model.counsel.remedy import CLAUSES, Change
 from tests.app.plans.asking import planned
 from tests.app.plans.test_changes import request_of
 

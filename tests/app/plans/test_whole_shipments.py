@@ -9,7 +9,7 @@ import pytest
 
 from app.schemas.explain import ExplainReply
 from app.schemas.fit import FitReply
-from model.judge import shipment_screening
+from model.counsel import shipment_screening
 from model.problem import MOST_PICKUPS
 from tests.app.plans.asking import refused
 

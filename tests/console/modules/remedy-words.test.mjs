@@ -8,10 +8,10 @@ import { remedyInWords } from '../../../app/console/static/js/core/remedy-words.
 import { choose } from '../../../app/console/static/js/texts.js';
 import german from '../../../app/console/static/texts/de.js';
 
-const JUDGE = new URL('../../../model/judge/', import.meta.url);
-const SOURCES = readdirSync(JUDGE)
+const COUNSEL = new URL('../../../model/counsel/', import.meta.url);
+const SOURCES = readdirSync(COUNSEL)
   .filter((name) => name.endsWith('.py'))
-  .map((name) => readFileSync(new URL(name, JUDGE), 'utf8'));
+  .map((name) => readFileSync(new URL(name, COUNSEL), 'utf8'));
 
 /** What a browser has to choose a language with; other tests run beside, and have none. */
 const BROWSER = {
@@ -90,7 +90,7 @@ test('a remedy that is not known is said as the service says it', () => {
   assert.equal(remedyInWords({ ...whole(), code: 'SHIFT' }, REQUEST), 'as the service says it');
 });
 
-test('every reason of the judge has words in German', () => {
+test('every reason that is given has words in German', () => {
   const codes = new Set(SOURCES.flatMap((source) =>
     [...source.matchAll(/Diagnosis\(\s*"([A-Z_]+)"|Reason\(index, "([A-Z_]+)"/g)]
       .map(([, one, other]) => one ?? other)));

@@ -6,7 +6,7 @@ import pytest
 
 from model.judge.check import check
 from model.judge.energy import leg_energy, power_at, sortie_energy
-from model.judge.explain import explain
+from model.counsel.explain import explain
 from model.judge.rules import watt_hours
 from model.judge.timing import RouteDecision, SortieDecision, TripDecision, schedule
 from model.problem import MICROJOULES_PER_WH, DroneType, Energy, Problem

@@ -5,7 +5,7 @@ from dataclasses import replace
 
 import pytest
 
-from model.judge.bench import Bench, Setting
+from model.counsel.bench import Bench, Setting
 from model.judge.check import check
 from model.judge.past import KnownStop, Past, known_trips
 from model.judge.timing import RouteDecision, SortieDecision, TripDecision, schedule

@@ -5,7 +5,7 @@ from dataclasses import replace
 import pytest
 
 from model.judge.check import check
-from model.judge.explain import POSSIBLE, explain
+from model.counsel.explain import POSSIBLE, explain
 from model.judge.timing import (
     Operation, RouteDecision, SortieDecision, TripDecision, schedule,
 )

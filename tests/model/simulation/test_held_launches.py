@@ -7,9 +7,9 @@ import numpy as np
 import pytest
 
 from model.judge.check import check
-from model.judge.explain import Reason, explain
+from model.counsel.explain import Reason, explain
 from model.judge.timing import RouteDecision, SortieDecision, TripDecision, schedule
-from model.judge.trial import small_problem
+from model.counsel.trial import small_problem
 from model.engine.instance import pack
 from model.problem import Problem, SpeedProfile
 from model.search.improve import SearchConfig, improve

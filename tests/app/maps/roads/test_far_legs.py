@@ -23,7 +23,7 @@ from app.requests.conversion.preparing import Preparing
 from app.requests.plan_reading import plan_to_solution
 from app.requests.reading import read_request
 from app.schemas.errors import NoRoadsError
-from model.accepting import Completed
+from model.judge.accepting import Completed
 from model.problem import FloatArray
 from tests.app.conftest import FirstFitPlanner
 from tests.app.maps.roads.test_legs import request

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from itertools import product
 from typing import NamedTuple
 
-from model.judge.bench import Bench, Draft, Trial
+from model.counsel.bench import Bench, Draft, Trial
 from model.judge.check import JudgedRoute
 from model.judge.past import Vehicle
 from model.judge.places import find_place, halts

@@ -5,9 +5,9 @@ import time
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
-from model.judge.bench import Bench, Setting, Trial
+from model.counsel.bench import Bench, Setting, Trial
 from model.judge.check import JudgedRoute
-from model.judge.screening import BY_TRUCK, Screen
+from model.counsel.screening import BY_TRUCK, Screen
 from model.problem import Problem
 from model.solution import Solution
 

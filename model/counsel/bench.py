@@ -19,8 +19,8 @@ from model.judge.places import (
 )
 from model.judge.retiming import TimedRoute, read_route, time_route
 from model.judge.rules import Violation
-from model.judge.screening import Guess, Screen
-from model.judge.shipment_screening import ShipmentScreen
+from model.counsel.screening import Guess, Screen
+from model.counsel.shipment_screening import ShipmentScreen
 from model.judge.timing import RouteDecision
 from model.problem import Problem, Shipment
 from model.solution import Solution

@@ -8,11 +8,11 @@ from dataclasses import replace
 
 from model.judge.breaks import begin_of, window_of
 from model.judge.clock import MS_PER_MINUTE
-from model.judge.diagnosis import up_to_tenth, with_type
+from model.counsel.diagnosis import up_to_tenth, with_type
 from model.judge.driving import travel_duration
 from model.judge.loads import trip_loads
-from model.judge.remedy import Change, Part, in_units
-from model.judge.trial import Attempt, again
+from model.counsel.remedy import Change, Part, in_units
+from model.counsel.trial import Attempt, again
 from model.problem import MAX_QUANTITY, Break, VehicleType
 from model.solution import Trip
 

@@ -4,11 +4,11 @@ from dataclasses import replace
 
 import pytest
 
-from model.judge.bench import Setting
-from model.judge.idle_drones import idle_drones
+from model.counsel.bench import Setting
+from model.counsel.idle_drones import idle_drones
 from model.judge.past import Past, Vehicle
 from model.judge.timing import SortieDecision
-from tests.model.judge.test_alternatives import A, B, C, D, plan, route
+from tests.model.counsel.test_alternatives import A, B, C, D, plan, route
 
 MINUTE = 60_000
 

@@ -3,9 +3,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from model.judge.alternatives import find_alternatives
-from model.judge.bench import Bench
-from model.judge.binding import find_binding
+from model.counsel.alternatives import find_alternatives
+from model.counsel.bench import Bench
+from model.counsel.binding import find_binding
 from model.judge.breaks import BreakDecision
 from model.judge.check import check
 from model.judge.timing import RouteDecision, SortieDecision, TripDecision
@@ -14,7 +14,7 @@ from model.problem import (
     Overtime, Shipment,
 )
 from model.solution import Solution, Trip
-from tests.model.judge.test_alternatives import A, B, C, D, MINUTE, greedy, plan, route
+from tests.model.counsel.test_alternatives import A, B, C, D, MINUTE, greedy, plan, route
 from tests.model.tiny import draw_tiny, with_duty
 from tests.seeds import seeds
 

@@ -3,8 +3,8 @@
 from dataclasses import replace
 from typing import NamedTuple
 
-from model.judge.remedy import Part
-from model.judge.trial import Attempt
+from model.counsel.remedy import Part
+from model.counsel.trial import Attempt
 from model.problem import DroneType, Problem, VehicleType
 
 

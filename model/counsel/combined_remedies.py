@@ -4,11 +4,11 @@ from collections.abc import Callable
 from typing import NamedTuple
 
 from model.judge.check import check
-from model.judge.diagnoses import DIAGNOSES
-from model.judge.diagnosis import Diagnosis
-from model.judge.remedy import Part, Remedy
-from model.judge.rest_remedies import rest_remedy
-from model.judge.trial import Attempt
+from model.counsel.diagnoses import DIAGNOSES
+from model.counsel.diagnosis import Diagnosis
+from model.counsel.remedy import Part, Remedy
+from model.counsel.rest_remedies import rest_remedy
+from model.counsel.trial import Attempt
 
 MOST_LIMITS = 4
 """At most so many are named: whoever has to change more won't."""

@@ -3,7 +3,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from model.judge.explain import explain
+from model.counsel.explain import explain
 from model.judge.timing import RouteDecision, TripDecision, schedule
 from model.problem import (
     MAX_MONEY, MAX_QUANTITY, UNLIMITED, UNREACHABLE, DrivingRules, IncompatibleGoods, Overtime,
@@ -298,7 +298,7 @@ def test_each_vehicle_type_has_its_reason(tiny_problem, customers, truck):
 def test_where_no_time_is_left_no_more_is_said_than_is_true(
     tiny_problem, customers, truck, monkeypatch
 ):
-    monkeypatch.setattr("model.judge.explain.attempts", None)
+    monkeypatch.setattr("model.counsel.explain.attempts", None)
     problem = tiny_problem(*customers, truck=replace(truck, latest=19 * MINUTE))
     (reason,) = explain(problem, NOBODY_SERVED, 4, until=0.0)
     assert told(reason) == (0, "SEARCH", "The search found no room for it on truck; there was no "

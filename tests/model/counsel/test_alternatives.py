@@ -3,11 +3,11 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from model.judge.alternatives import find_alternatives
-from model.judge.bench import Bench
+from model.counsel.alternatives import find_alternatives
+from model.counsel.bench import Bench
 from model.judge.check import check
 from model.judge.past import Vehicle
-from model.judge.screening import Screen
+from model.counsel.screening import Screen
 from model.judge.timing import RouteDecision, SortieDecision, TripDecision, schedule
 from model.solution import Solution
 from tests.model.tiny import (

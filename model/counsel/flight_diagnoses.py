@@ -5,14 +5,14 @@ from dataclasses import replace
 from math import ceil
 
 from model.judge.clock import MS_PER_MINUTE
-from model.judge.diagnosis import (
+from model.counsel.diagnosis import (
     Diagnosis, drones_of, flyer_of, name_of, told_apart, up_to_tenth, with_flyer, with_type,
 )
 from model.judge.energy import sortie_energy
 from model.judge.flown_trips import airborne, trip_energy
-from model.judge.remedy import Change, if_stated, in_km, in_minutes
+from model.counsel.remedy import Change, if_stated, in_km, in_minutes
 from model.judge.rules import airborne_duration, farthest, watt_hours
-from model.judge.trial import Attempt
+from model.counsel.trial import Attempt
 from model.problem import (
     MAX_BATTERY, MAX_POWER, MAX_QUANTITY, MICROJOULES_PER_WH, MM_PER_KM, UNLIMITED, Energy,
     VehicleType,

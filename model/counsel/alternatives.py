@@ -10,13 +10,13 @@ from collections.abc import Collection, Iterator, Sequence
 from dataclasses import dataclass, replace
 from typing import Literal
 
-from model.judge.bench import Bench, Draft, Trial
+from model.counsel.bench import Bench, Draft, Trial
 from model.judge.clock import window_of
-from model.judge.group_moves import Unit, companions_of, move_all
+from model.counsel.group_moves import Unit, companions_of, move_all
 from model.judge.past import Vehicle
 from model.judge.places import Means, Place, halts
 from model.judge.retiming import read_route
-from model.judge.screening import share_over
+from model.counsel.screening import share_over
 from model.judge.timing import RouteDecision
 from model.problem import Customer, Problem
 from model.solution import Stop, Visit

@@ -13,11 +13,11 @@ from typing import NamedTuple
 
 import numpy as np
 
-from model.judge.bench import Bench, Setting, Trial
+from model.counsel.bench import Bench, Setting, Trial
 from model.judge.check import JudgedRoute
 from model.judge.past import Vehicle
 from model.judge.places import Means, halts
-from model.judge.screening import Screen
+from model.counsel.screening import Screen
 from model.problem import UNREACHABLE, Customer, DroneType, Problem, VehicleType
 from model.solution import Route, Solution
 

@@ -6,8 +6,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from model.judge.explain import Reason, explain
-from model.judge.more_trips import with_another_trip
+from model.counsel.explain import Reason, explain
+from model.counsel.more_trips import with_another_trip
 from model.judge.past import EVERYTHING_OPEN, Past, Vehicle, known_trips
 from model.judge.retiming import read_route, time_route
 from model.judge.timing import RouteDecision, TripDecision, schedule

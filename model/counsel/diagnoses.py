@@ -6,19 +6,19 @@ from dataclasses import replace
 from operator import gt
 
 from model.judge.clock import MS_PER_MINUTE
-from model.judge.diagnosis import (
+from model.counsel.diagnosis import (
     Diagnosis, drones_of, name_of, told_apart, up_to_tenth, with_type,
 )
-from model.judge.flight_diagnoses import (
+from model.counsel.flight_diagnoses import (
     endurance_broken, energy_broken, hours_broken, max_range_broken, unreachable_broken,
     wind_broken,
 )
 from model.judge.driving import excesses, travel_duration
 from model.judge.freshness import excess_aboard
 from model.judge.metrics import allowed_overtime
-from model.judge.remedy import LAST_WINDOW, Change, if_stated, in_km, in_minutes, in_units
+from model.counsel.remedy import LAST_WINDOW, Change, if_stated, in_km, in_minutes, in_units
 from model.judge.rules import amounts
-from model.judge.trial import Attempt, attempts
+from model.counsel.trial import Attempt, attempts
 from model.problem import MAX_QUANTITY, MM_PER_KM, UNLIMITED, Depot, Overtime, Problem
 from model.solution import Stop, Visit
 

@@ -7,17 +7,17 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from model.judge.alternatives import find_alternatives
-from model.judge.bench import Bench
+from model.counsel.alternatives import find_alternatives
+from model.counsel.bench import Bench
 from model.judge.check import check
-from model.judge.fitting import find_fits, new_violations
-from model.judge.group_moves import companions_to
+from model.counsel.fitting import find_fits, new_violations
+from model.counsel.group_moves import companions_to
 from model.judge.past import EVERYTHING_OPEN, Vehicle
 from model.judge.places import halts
 from model.judge.retiming import time_route
 from model.problem import Customer, Depot, Problem, Travel, VehicleType
 from model.solution import Solution
-from tests.model.judge.test_shipment_places import bench_of, greedy, routes
+from tests.model.counsel.test_shipment_places import bench_of, greedy, routes
 from tests.model.tiny_company import with_relations
 from tests.model.tiny_shipments import with_shipments
 

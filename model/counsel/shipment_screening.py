@@ -16,7 +16,7 @@ from model.judge.loads import trip_loads
 from model.judge.metrics import allowed_overtime
 from model.judge.past import Past, Vehicle
 from model.judge.places import Means, Place
-from model.judge.screening import (
+from model.counsel.screening import (
     ANYHOW, BY_TRUCK, SPANS, Guess, Screen, first_drones, free_drone, share_over, slacks_of,
 )
 from model.problem import MM_PER_KM, MS_PER_HOUR, UNREACHABLE, Problem, Shipment

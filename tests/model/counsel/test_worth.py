@@ -3,8 +3,8 @@ from dataclasses import replace
 import pytest
 
 from model.judge.timing import SortieDecision
-from model.judge.worth import Worth, sorties_worth
-from tests.model.judge.test_alternatives import A, B, C, D, plan, route
+from model.counsel.worth import Worth, sorties_worth
+from tests.model.counsel.test_alternatives import A, B, C, D, plan, route
 
 
 def test_sortie_saves_what_the_truck_would_drive_more(tiny_problem, customers, truck, drones):

@@ -11,19 +11,19 @@ from dataclasses import dataclass, replace
 from itertools import takewhile
 from typing import Literal, NamedTuple
 
-from model.judge.alternatives import Findings, halt_of, here_of, with_customer
-from model.judge.bench import Bench, Trial
+from model.counsel.alternatives import Findings, halt_of, here_of, with_customer
+from model.counsel.bench import Bench, Trial
 from model.judge.clock import MS_PER_MINUTE, opening
 from model.judge.driving import travel_duration
 from model.judge.energy import charges, sortie_energy
-from model.judge.flight_limits import flight_limits, hour_limits, hub_limits, one_km_more
+from model.counsel.flight_limits import flight_limits, hour_limits, hub_limits, one_km_more
 from model.judge.freshness import excess_aboard
-from model.judge.lifting import lifted
+from model.counsel.lifting import lifted
 from model.judge.loads import highest, sortie_loads
 from model.judge.places import Place
 from model.judge.rules import airborne_duration, farthest
-from model.judge.screening import share_over
-from model.judge.work_limits import between_limits, duty_limits, fleet_limits, rest_limits
+from model.counsel.screening import share_over
+from model.counsel.work_limits import between_limits, duty_limits, fleet_limits, rest_limits
 from model.problem import (
     MAX_POWER, MAX_QUANTITY, MICROJOULES_PER_WH, MM_PER_KM, UNLIMITED, DroneType, Energy, Problem,
     VehicleType,

@@ -5,7 +5,7 @@ from dataclasses import replace
 
 import pytest
 
-from model.accepting import Completed, Judge, sound_routes
+from model.judge.accepting import Completed, Judge, sound_routes
 from model.judge.memory import Memory
 from model.judge.timing import RouteDecision, TripDecision, schedule
 from model.problem import Customer, Problem, VehicleType

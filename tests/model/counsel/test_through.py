@@ -5,7 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from model.judge.explain import Reason, explain
+from model.counsel.explain import Reason, explain
 from model.judge.timing import RouteDecision, TripDecision, schedule
 from model.problem import Customer, Depot, Problem, Travel, VehicleType
 from model.solution import Solution
