@@ -13,7 +13,7 @@ from app.schemas.request import PlanRequest
 from app.schemas.shipment import EndKind, ShipmentInput, end_name
 from app.schemas.times import Written
 from app.schemas.written import length_like
-from model.counsel.remedy import LAST_WINDOW, Change, Remedy
+from model.counsel.remedy import Change, Remedy
 
 Data = dict[str, Any]
 Keys = tuple[str | int, ...]
@@ -166,7 +166,7 @@ def _closing(of: Changing, keys: Keys, change: Change) -> Found:
     windows, more = of.at((*keys, "time_windows")), change.quantity / 1000
     if windows is None:
         return _later(of, (*keys, "time_window"), more)
-    number = len(windows) - 1 if change.window == LAST_WINDOW else change.window - 1
+    number = change.window - 1 if change.window > 0 else len(windows) - 1
     if number + 1 < len(windows):
         # Windows don't touch: a millisecond lies between.
         more = min(more, windows[number + 1].earliest - 0.001 - windows[number].latest)

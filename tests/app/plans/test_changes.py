@@ -36,6 +36,8 @@ def changes_of(client: httpx.Client, request: Request) -> list[Request]:
 @pytest.mark.parametrize(("customer", "van", "changes"), [
     ({"time_window": {"latest": 300}}, {},
      [{"path": "$.customers[0].time_window.latest", "by": 60}]),
+    ({"time_windows": [{"latest": 330}]}, {},
+     [{"path": "$.customers[0].time_windows[0].latest", "by": 30}]),
     ({"time_windows": [{"latest": 60}, {"earliest": 100, "latest": 330}]}, {},
      [{"path": "$.customers[0].time_windows[1].latest", "by": 30}]),
     ({"time_windows": [{"latest": 355}, {"earliest": 357, "latest": 9000}]},
