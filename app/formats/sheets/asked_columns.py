@@ -11,6 +11,7 @@ from app.formats.sheets.meanings import MEANINGS
 from app.formats.sheets.questions import Question, Questionnaire
 from app.formats.sheets.readers import read
 from app.formats.sheets.schemas import ColumnMapping, Mapping
+from app.formats.sheets.words import CELL_WORDS
 
 LIKELY = 0.5
 """Score of a heading's guess from which it is worth a choice."""
@@ -25,8 +26,7 @@ BY_CELLS = ("window", "earliest", "latest", "point", "date", "demand", "service"
 MOST_BY_CELLS = 4
 
 GROUPING = ("together", "apart")
-GROUP_WORDS = frozenset((
-    "group", "groups", "gruppe", "gruppen", "groupe", "grupo", "gruppo", "groep", "grupa"))
+GROUP_WORDS = frozenset(CELL_WORDS["groups"])
 """Words of headings that may say who goes together, or who doesn't."""
 
 IGNORED, INFO = "ignored", "info"

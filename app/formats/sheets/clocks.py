@@ -8,6 +8,7 @@ from app.formats.sheets.cells import BEFORE_ALL_DATES, MisreadError, Raw, clock_
 from app.formats.sheets.headings import simple
 from app.formats.sheets.meanings import UNITS
 from app.formats.sheets.numbers import number, split_unit
+from app.formats.sheets.words import WINDOW_WORDS
 
 MINUTE, HOUR, DAY = 60, 3600, 86400
 
@@ -53,27 +54,18 @@ _COLONS = re.compile(r"(\d{1,2}):(\d{2})(?::(\d{2}))?")
 _HOURS = re.compile(r"(?<!\d)(\d++)\s*+h[a-z]*+\.?\s*+(\d{1,2})\s*+(?:m[a-z]*+\.?)?")
 _ISO = re.compile(r"pt(?:(\d++)h)?(?:(\d++)m)?(?:(\d++)s)?")
 _ENDS_MINUTES = re.compile(r"['\u2032m]$")
-ALWAYS = frozenset((
-    "all day", "any", "anytime", "any time", "open", "flexible", "24 h", "24h", "24 7", "ganztagig",
-    "egal", "jederzeit", "flexibel", "toute la journee", "todo el dia", "tutto il giorno",
-    "hele dag", "caly dzien", "dia todo"))
+ALWAYS = frozenset(WINDOW_WORDS["all_day"])
 """Windows in words, in simple letters, that leave any time of day."""
 
 Window = tuple[float | None, float | None]
 
 NOON = 12 * HOUR
-HALVES: dict[str, Window] = {
-    **dict.fromkeys(("am", "a m", "morning", "mornings", "vormittag", "vormittags", "morgens",
-                     "matin", "le matin", "manana", "mattina", "mattino", "ochtend", "voormiddag",
-                     "rano", "manha", "forenoon", "vorm", "vm"), (None, NOON)),
-    **dict.fromkeys(("pm", "p m", "afternoon", "afternoons", "nachmittag", "nachmittags",
-                     "apres midi", "l apres midi", "tarde", "pomeriggio", "middag", "namiddag",
-                     "popoludniu", "po poludniu", "nachm", "nm"), (NOON, None))}
+HALVES: dict[str, Window] = {**dict.fromkeys(WINDOW_WORDS["morning"], (None, NOON)),
+                             **dict.fromkeys(WINDOW_WORDS["afternoon"], (NOON, None))}
 """Windows in words, in simple letters, that are half of the day."""
 
 BEFORE_TIMES = ("ore ", "um ", "at ")
-FRAMES = frozenset(("between", "zwischen", "entre", "tra", "tussen", "fra"))
-FRAMED = frozenset(("and", "und", "et", "y", "e", "en"))
+FRAMES, FRAMED = frozenset(WINDOW_WORDS["frames"]), frozenset(WINDOW_WORDS["framed"])
 ONWARDS = ("+", "onwards")
 
 

@@ -11,9 +11,7 @@ from app.formats.sheets.layout import Table
 from app.formats.sheets.questions import KEEP_OR_NOT, LEAVE_OUT, PLAN, Question, Questionnaire
 from app.formats.sheets.readers import NO, ORDER_KINDS, YES
 from app.formats.sheets.rows import Row
-from app.formats.sheets.states import CANCELLED, DONE, OPEN
-
-NOT = frozenset(("not", "nicht", "non", "no", "pas", "kein", "niet", "nie"))
+from app.formats.sheets.states import CANCELLED, DONE, NOT, OPEN
 
 IN_TEXTS = ("status", "notes", "name", "order", "info", "priority", "ignored", "kind")
 """Meanings of columns in which somebody may have written that an order is cancelled."""

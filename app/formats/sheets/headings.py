@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 from functools import cache, lru_cache
 
 from app.formats.sheets.meanings import CLOCK_UNITS, DURATION_UNITS, MEANINGS, UNITS
-from app.formats.sheets.words import BEGIN, END, WINDOW, WORDS
+from app.formats.sheets.words import BEGIN, COLUMNS, END, WINDOW
 
 SURE = 1.0
 HEADING = 0.66
@@ -154,13 +154,12 @@ def _fitting(words: list[str]) -> Iterator[tuple[tuple[str, ...], float]]:
 @cache
 def _phrases() -> dict[tuple[str, ...], list[tuple[int, str, str]]]:
     """Return the meanings and languages of all phrases, as words, each with its place."""
-    listed = [(phrase, meaning, language) for meaning, languages in WORDS.items()
-              for language, phrases in languages.items() for phrase in phrases.split("|")]
+    listed = [(phrase, meaning, language) for meaning, languages in COLUMNS.items()
+              for language, phrases in languages.items() for phrase in phrases]
     for meaning, ends in (("earliest", BEGIN), ("latest", END)):
         for language, phrases in ends.items():
-            whole = WINDOW[language].split("|")
-            for word in phrases.split("|"):
-                listed += [(text, meaning, language) for window in whole
+            for word in phrases:
+                listed += [(text, meaning, language) for window in WINDOW[language]
                            for text in (f"{window} {word}", f"{word} {window}")]
                 listed += [(f"{word} {filler}", meaning, language)
                            for filler in ("time", "uhr", "zeit", "uhrzeit", "heure", "hora", "ora")]

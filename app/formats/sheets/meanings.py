@@ -3,6 +3,8 @@
 from dataclasses import dataclass, replace
 from typing import Literal
 
+from app.formats.sheets.words import UNIT_WORDS, meant
+
 Kind = Literal["text", "number", "amount", "clock", "windows", "duration", "names", "server",
                "side", "date", "degrees", "point", "kind", "prices"]
 
@@ -114,28 +116,4 @@ MEANINGS |= {meaning_at(side, own): replace(MEANINGS[own],
 PLACES = ({"latitude", "longitude"}, {"point"}, {"x", "y"})
 """Columns that tell where customers are."""
 
-UNIT_WORDS = {
-    "minutes": "min mins minute minutes minuten minuti minuto minutos minuten minuty mn",
-    "seconds": "s sec secs second seconds sek sekunden secondes segundos secondi sekundy",
-    "hours": "h hr hrs hour hours std stunde stunden heure heures hora horas ore ora uur godz",
-    "clock": "hh:mm h:mm hh.mm uhr uhrzeit hhmmss hh:mm:ss",
-    "hhmm": "hhmm",
-    "kg": "kg kgs kilo kilos kilogramm kilogram kilograms kilogrammes",
-    "g": "g gr gram grams gramm grammes",
-    "t": "t tonne tonnes tonnen tons",
-    "lb": "lb lbs pound pounds",
-    "oz": "oz ounces",
-    "l": "l ltr liter litre liters litres litri litros",
-    "ml": "ml",
-    "m3": "m3 cbm cubm",
-    "cm3": "cm3 ccm",
-    "ft3": "ft3 cuft cf",
-    "m": "m meter metre meters metres metri metros",
-    "km": "km kilometer kilometre kilometers kilometres",
-    "parcels": "pcs pc stk stuck parcel parcels colis paket pakete unit units piece pieces szt pkg "
-               "pkgs package packages colli kolli bultos",
-    "pallets": "pal plt plts pallet pallets palette paletten palettes bancali palety",
-}
-"""What units are called, in simple letters."""
-
-UNITS = {word: unit for unit, words in UNIT_WORDS.items() for word in words.split()}
+UNITS = meant(UNIT_WORDS)

@@ -8,31 +8,9 @@ from app.formats.sheets.clocks import Style
 from app.formats.sheets.headings import simple
 from app.formats.sheets.numbers import number_of
 from app.formats.sheets.table import Sheet
+from app.formats.sheets.words import MEASURES, PLAN_NAMES, meant
 
-WORDS = {
-    "makespan_cost_per_hour": "makespan cost|makespan cost per hour|cost of the last hour|"
-                              "cost per hour of the longest day|cost per hour until all are back|"
-                              "kosten je stunde bis alle zuruck sind|kosten der gesamtdauer|"
-                              "kosten je stunde gesamtdauer",
-    "balance": "balance|balance of|balanced|fair share of|ausgleich|ausgleich nach|"
-               "gleichmassig nach|gerecht nach",
-    "balance_cost": "balance cost|cost of balance|cost of imbalance|ausgleichskosten|"
-                    "kosten des ausgleichs|kosten ungleicher arbeit",
-    "min_vehicles": "min vehicles|minimum vehicles|least vehicles|least number of vehicles|"
-                    "mindestzahl fahrzeuge|mindestens fahrzeuge|fahrzeuge mindestens",
-}
-"""Names of what holds for the whole plan, in simple letters; `|` stands between phrases."""
-
-MEASURES = {
-    "duration": "duration|hours|working hours|time|dauer|arbeitszeit|stunden",
-    "stops": "stops|customers|stopps|kunden|halte",
-    "load": "load|amount|ladung|menge",
-    "distance": "distance|km|kilometres|kilometers|strecke|kilometer",
-}
-
-NAMES = {phrase: name for name, phrases in WORDS.items() for phrase in phrases.split("|")}
-MEASURE_NAMES = {phrase: name for name, phrases in MEASURES.items()
-                 for phrase in phrases.split("|")}
+NAMES, MEASURE_NAMES = meant(PLAN_NAMES), meant(MEASURES)
 
 MOST_ROWS = 100
 

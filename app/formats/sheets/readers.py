@@ -10,39 +10,21 @@ from app.formats.sheets.headings import simple
 from app.formats.sheets.links import is_link, place_of
 from app.formats.sheets.meanings import Kind
 from app.formats.sheets.numbers import ENTRIES, amount_of, number, number_of
+from app.formats.sheets.words import CELL_WORDS, KIND_STEMS
 from app.schemas.fields import MAX_INFO_LENGTH
 
 Reader = Callable[[Raw, str | None, Style], Any]
 
-YES = frozenset((
-    "y", "yes", "ja", "j", "oui", "o", "si", "s", "true", "wahr", "vrai", "vero", "1", "x",
-    "ok", "tak", "t", "sim", "either", "both"))
-NO = frozenset((
-    "n", "no", "nein", "non", "false", "falsch", "faux", "falso", "0", "nee", "nie", "nao",
-    "truck only"))
+YES, NO, DEPOTS = (frozenset(CELL_WORDS[name]) for name in ("yes", "no", "depots"))
 NOTHING = frozenset((
     "-", "--", "\u2013", "\u2014", "n/a", "na", "none", "null", "k.a.", "?", "/", "."))
 """What stands in cells for nothing, where it can't be anything else."""
-
-DEPOTS = frozenset((
-    "depot", "lager", "zentrale", "hub", "warehouse", "base", "entrepot", "deposito",
-    "almacen", "magazzino", "magazijn", "magazyn", "baza", "armazem", "dc"))
 
 SIDES = ("N", "S", "E", "W")
 PART_SIGNS = " ,;/"
 """What may stand between two coordinates, each with its side."""
 
 DEPOT, CUSTOMER, DELIVERY, PICKUP = ORDER_KINDS = ("depot", "customer", "delivery", "pickup")
-
-KINDS = {
-    PICKUP: ("abhol", "pickup", "pick", "collect", "retour", "return", "ruckhol", "rucknahme",
-             "enlevement", "ramassage", "recogida", "recoleccion", "ritiro", "ophalen", "ophaal",
-             "odbior", "recolha", "coleta", "leergut"),
-    DELIVERY: ("liefer", "zustell", "ausliefer", "anliefer", "deliver", "drop", "livraison",
-               "entrega", "consegna", "lever", "bezorg", "dostawa", "aflever", "distribution"),
-    CUSTOMER: ("kunde", "customer", "client", "stop", "cliente", "klant", "klient"),
-}
-"""How words begin that say what is done at a stop, in simple letters."""
 
 _DEGREES = re.compile(
     r"(?P<degrees>[-+]?\d{1,3})\s*+[°d]\s*+(?:(?P<minutes>\d{1,2}(?:[.,]\d++)?)\s*+['\u2032m]\s*+)?"
@@ -203,8 +185,8 @@ def _kind(raw: Raw, unit: str | None, style: Style) -> str:
     words = simple(shown(raw)).split()
     if " ".join(words) in DEPOTS:
         return DEPOT
-    for kind, known in KINDS.items():
-        if any(word.startswith(known) for word in words[:3]):
+    for kind, known in KIND_STEMS.items():
+        if any(word.startswith(tuple(known)) for word in words[:3]):
             return kind
     return shown(raw)
 

@@ -13,6 +13,7 @@ from app.formats.sheets.headings import simple
 from app.formats.sheets.layout import Table
 from app.formats.sheets.meanings import MEANINGS
 from app.formats.sheets.readers import DEPOT, DEPOTS, NO, YES, read, ticked_kind
+from app.formats.sheets.words import CELL_WORDS
 
 
 READINGS = 4096
@@ -116,7 +117,4 @@ def sums_in(rows: Sequence[Row]) -> list[Row]:
 
 PLACED = ("latitude", "point", "x", "address", "street", "town", "postcode")
 
-TOTALS = frozenset((
-    "zwischensumme", "subtotal", "summen", "insgesamt", "ubertrag",
-    "total", "totals", "sum", "summe", "gesamt", "gesamtsumme", "somme", "totale", "suma",
-    "totaal", "razem"))
+TOTALS = frozenset(CELL_WORDS["totals"])

@@ -8,58 +8,27 @@ from app.formats.sheets.headings import (
     HEADING, LONGEST_LOOK, MOST_LOOKED_AT, SURE, HeadingGuess, guesses, simple,
 )
 from app.formats.sheets.meanings import OF_PICKUPS, OF_SIDES, meaning_at
+from app.formats.sheets.words import (
+    BARE_END_WORDS, END_WORDS, PLACE_WORDS, SIDE_STEMS, SIDE_WORDS, meant,
+)
 
 OWN, DELIVERY, PICKUP, ALTERNATIVE = "", "delivery", "pickup", "alternative"
 
-WORDS = {
-    PICKUP: "pickup collection collect origin sender shipper consignor loading abholung absender "
-            "versender beladung ladestelle beladestelle ladeort enlevement expediteur chargement "
-            "retrait ramassage depart recogida remitente origen ritiro mittente ophalen afzender "
-            "odbior odbioru nadawca nadawcy zaladunku coleta recolha remetente origem",
-    DELIVERY: "delivery dropoff destination dest consignee recipient receiver unloading lieferung "
-              "empfanger entladung zustellung entladestelle livraison destinataire dechargement "
-              "entrega destino destinatario consegna levering ontvanger dostawy odbiorca odbiorcy "
-              "rozladunku ziel",
-    ALTERNATIVE: "alternative alternate alternativ alternativa alternativo alternatief "
-                 "alternatieve alternatywny alternatywna alternatywne fallback locker packstation "
-                 "paketshop",
-}
-STEMS = {PICKUP: ("abhol", "belade", "absender", "versender", "ophaal", "laad"),
-         DELIVERY: ("liefer", "anliefer", "zustell", "empfanger", "entlade", "ziel", "bezorg",
-                    "aflever"),
-         ALTERNATIVE: ("alternativ", "ausweich", "ersatz")}
-"""How compounds begin that are about a side."""
-
-ENDS = {"from": PICKUP, "von": PICKUP, "to": DELIVERY, "nach": DELIVERY}
+ENDS = meant(END_WORDS)
 """What stands before a place's columns, and alone says when windows begin and end."""
 
-BARE_ENDS = ENDS | {
-    "start": PICKUP, "source": PICKUP, "desde": PICKUP, "da": PICKUP, "van": PICKUP, "z": PICKUP,
-    "end": DELIVERY, "target": DELIVERY, "ende": DELIVERY, "hasta": DELIVERY, "a": DELIVERY,
-    "naar": DELIVERY, "do": DELIVERY}
+BARE_ENDS = meant(BARE_END_WORDS)
 """The same, alone above places."""
 
-FILLERS = frozenset((
-    "d", "de", "di", "da", "do", "des", "du", "del", "della", "dell", "of", "the", "la", "le"))
+FILLERS, WHEN, WHERE, PEOPLE, BARE = (
+    frozenset(PLACE_WORDS[name]) for name in ("fillers", "when", "where", "people", "bare"))
+"""What stands beside a side; `PEOPLE` and `BARE` say no more than whose place, or which."""
 
 SPLIT = {("pick", "up"): "pickup", ("drop", "off"): "dropoff"}
 
 PLACE = frozenset(("latitude", "longitude", "point", "x", "y", "address", "street", "postcode",
                    "town"))
 NAMED = PLACE | {"name", "house_number"}
-
-WHEN = frozenset((
-    "time", "times", "zeit", "heure", "hora", "ora", "tijd", "czas"))
-WHERE = frozenset((
-    "location", "place", "site", "ort", "stelle", "lieu", "lugar", "luogo", "plaats", "miejsce",
-    "local"))
-PEOPLE = frozenset((
-    "sender", "shipper", "consignor", "absender", "versender", "expediteur", "remitente",
-    "mittente", "afzender", "nadawca", "remetente"))
-BARE = frozenset((
-    "origin", "destination", "dest", "ladestelle", "beladestelle", "ladeort", "entladestelle",
-    "origen", "destino", "origem", "ziel", "locker", "packstation", "paketshop"))
-"""Headings that say no more than which place, or whose."""
 
 SAID_ALONE = 0.9
 SAID_SO = 0.8
@@ -136,10 +105,10 @@ def _parts(words: Sequence[str]) -> Iterator[tuple[str, list[str], bool]]:
         rest = [*words[:place], *words[place + 1:]]
         if place and words[place - 1] in FILLERS:
             rest = [*words[:place - 1], *words[place + 1:]]
-        for side, known in WORDS.items():
-            if word in known.split():
+        for side, known in SIDE_WORDS.items():
+            if word in known:
                 yield side, rest, False
-        for side, stems in STEMS.items():
+        for side, stems in SIDE_STEMS.items():
             yield from ((side, [*words[:place], *filter(None, [word.removeprefix(stem)]),
                                 *words[place + 1:]], False)
                         for stem in stems if word.startswith(stem))

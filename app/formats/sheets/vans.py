@@ -13,7 +13,7 @@ from app.formats.sheets.numbers import own_unit
 from app.formats.sheets.readers import read
 from app.formats.sheets.table import Sheet
 from app.formats.sheets.units import clock_unit, duration_unit
-from app.formats.sheets.van_words import WORDS
+from app.formats.sheets.words import VAN_HEADINGS, meant
 
 KINDS: dict[str, Kind] = {
     "name": "text", "driver": "text", "count": "number", "capacity": "amount", "earliest": "clock",
@@ -27,7 +27,7 @@ KINDS: dict[str, Kind] = {
     "driven_before": "duration", "worked_before": "duration", "lifo": "text"}
 """What is read; of drones nothing is made, though a number of them is none of vehicles."""
 
-MEANINGS = {phrase: meaning for meaning, phrases in WORDS.items() for phrase in phrases.split("|")}
+MEANINGS = meant(VAN_HEADINGS)
 
 REPEATED = ("capacity", "break", "break_duration")
 """Meanings of several columns."""
