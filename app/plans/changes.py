@@ -14,6 +14,7 @@ from app.schemas.shipment import EndKind, ShipmentInput, end_name
 from app.schemas.times import Written
 from app.schemas.written import length_like
 from model.counsel.remedy import Change, Remedy
+from model.problem.limits import LIMITS, ONE, StatedLimit, Whose
 
 Data = dict[str, Any]
 Keys = tuple[str | int, ...]
@@ -21,6 +22,9 @@ Found = list[tuple[Keys, Data]]
 """Places of a request, and `by` or `to` what each changes."""
 
 CENT = 0.01
+
+THOUSANDTHS = 1000
+"""Of a second or a metre, in which problems count."""
 
 
 class NowhereError(Exception):
@@ -222,14 +226,23 @@ def _to(value: object, *keys: str) -> Callable[[Changing, Change], Found]:
     return lambda of, _: [((*of.type, *keys), {"to": value})]
 
 
-def _number(*keys: str) -> Callable[[Changing, Change], Found]:
-    """Return what sets a number of the vehicle type."""
-    return lambda of, change: [((*of.type, *keys), {"to": change.quantity})]
+def _stated(limit: StatedLimit) -> Callable[[Changing, Change], Found]:
+    """Return what changes a number where the request states it."""
+    owners: dict[Whose, Callable[[Changing, Change], Keys]] = {
+        "customer": lambda of, _: of.subject, "shipment": lambda of, _: of.subject,
+        "vehicle_type": lambda of, _: of.type, "flyer": lambda of, change: of.flyer(change.of),
+        "drones": lambda of, change: of.flyer("".join(change.names))}
+    owner, path = owners[limit.whose], limit.path.split(".")
 
+    def found(of: Changing, change: Change) -> Found:
+        keys, quantity = (*owner(of, change), *path), change.quantity
+        if limit.step is not ONE:
+            quantity /= THOUSANDTHS
+        if limit.is_total:
+            return [(keys, {"to": of.written(keys, quantity)})]
+        return of.more(keys, quantity, is_instant=limit.is_instant)
 
-def _thousandths(*keys: str) -> Callable[[Changing, Change], Found]:
-    """Return what adds to a duration or distance of the vehicle type."""
-    return lambda of, change: of.more((*of.type, *keys), change.quantity / 1000)
+    return found
 
 
 def _one_more(all_of: str, name: str) -> Callable[[Changing, Change], Found]:
@@ -237,24 +250,18 @@ def _one_more(all_of: str, name: str) -> Callable[[Changing, Change], Found]:
     return lambda of, change: of.more(of.named(all_of, change.of, name), 1)
 
 
-def _at_least(keys: Keys, of: Changing, change: Change) -> Found:
-    return [(keys, {"to": of.written(keys, change.quantity / 1000)})]
-
-
-def _driving(name: str) -> Callable[[Changing, Change], Found]:
-    return lambda of, change: _at_least((*of.type, "driving_rules", name), of, change)
-
-
 def _amounts(change: Change) -> Data:
     return {"to": list(map(float, change.amounts))}
 
 
 WHOSE: dict[str, Literal["subject", "end", "drones", "named", "request"]] = {
-    **dict.fromkeys(("by_truck", "by_drone", "window", "time_aboard", "time_between", "detour",
-                     "lag", "relations", "own_unassigned_cost"), "subject"),
+    **{name: "subject" for name, limit in LIMITS.items()
+       if limit.whose in {"customer", "shipment"}},
+    **{name: "drones" for name, limit in LIMITS.items() if limit.whose in {"flyer", "drones"}},
+    **dict.fromkeys(("by_truck", "by_drone", "window", "detour", "lag", "relations",
+                     "own_unassigned_cost"), "subject"),
     "end_window": "end",
-    **dict.fromkeys(("drone_capacity", "endurance", "range", "wind", "battery",
-                     "batteries_aboard"), "drones"),
+    **dict.fromkeys(("drone_capacity", "wind", "battery"), "drones"),
     **dict.fromkeys(("launch", "depot_hours", "hub_batteries", "hub_chargers", "break",
                      "break_load", "break_start"), "named"),
     **dict.fromkeys(("unassigned_cost", "buffer"), "request"),
@@ -262,6 +269,7 @@ WHOSE: dict[str, Literal["subject", "end", "drones", "named", "request"]] = {
 """Whom a limit is of, where that isn't the vehicle type: `named` are depots and breaks."""
 
 CHANGES: dict[str, Callable[[Changing, Change], Found]] = {
+    **{name: _stated(limit) for name, limit in LIMITS.items()},
     "vehicles": _vehicles,
     "by_truck": lambda of, _: [((*of.place, "served_by"), {"to": "either"})],
     "by_drone": lambda of, _: [((*of.place, "served_by"), {"to": "either"})],
@@ -276,34 +284,16 @@ CHANGES: dict[str, Callable[[Changing, Change], Found]] = {
     "time_aboard": lambda of, change: of.more(
         (*of.subject, "max_time_aboard" if of.place == of.subject else "max_time_between"),
         change.quantity / 1000),
-    "time_between": lambda of, change: _at_least((*of.subject, "max_time_between"), of, change),
     "detour": lambda of, change: [((*of.subject, "max_detour"), {"to": change.quantity / 1000})],
     "lag": _lags,
     "relations": _unrelated,
-    "endurance": lambda of, change: of.more((*of.flyer(change.of), "endurance"),
-                                            change.quantity / 1000),
-    "range": lambda of, change: of.more((*of.flyer(change.of), "max_range"),
-                                        change.quantity / 1000),
     "wind": lambda of, change: [((*of.flyer(change.of), "max_wind_kmh"), {"to": None})],
     "battery": lambda of, change: of.more((*of.flyer(change.of), "energy", "battery_wh"),
                                           change.quantity / 10),
-    "batteries_aboard": lambda of, change: [
-        ((*of.flyer("".join(change.names)), "turnaround", "batteries"), {"to": change.quantity})],
     "launch": lambda of, change: [(of.named("depots", change.of, "launch"), {"to": True})],
-    "trip_distance": _thousandths("max_trip_distance"),
-    "travel": _thousandths("max_travel_duration"),
-    "stops": _number("max_stops"),
-    "sorties": _number("max_sorties"),
-    "shift": lambda of, change: of.more((*of.type, "shift", "latest"), change.quantity / 1000,
-                                        is_instant=True),
-    "work": _thousandths("max_working_duration"),
-    "overtime": _thousandths("overtime", "max_duration"),
     "depot_hours": lambda of, change: of.more(
         of.named("depots", change.of, "time_window", "latest"), change.quantity / 1000,
         is_instant=True),
-    "driving_day": _driving("max_driving_per_day"),
-    "driving": _driving("max_driving"),
-    "work_spell": _driving("max_work_before_break"),
     "rests_in_flight": _to(True, "driving_rules", "while_drones_fly"),
     "break_load": lambda of, change: [(of.named("breaks", change.of, "max_load"),
                                        _amounts(change))],

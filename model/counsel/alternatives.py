@@ -11,12 +11,12 @@ from dataclasses import dataclass, replace
 from typing import Literal
 
 from model.counsel.bench import Bench, Draft, Trial
-from model.judge.clock import window_of
 from model.counsel.group_moves import Unit, companions_of, move_all
+from model.counsel.screening import share_over
+from model.judge.clock import window_of
 from model.judge.past import Vehicle
 from model.judge.places import Means, Place, halts
 from model.judge.retiming import read_route
-from model.counsel.screening import share_over
 from model.judge.timing import RouteDecision
 from model.problem import Customer, Problem
 from model.solution import Stop, Visit

@@ -7,11 +7,13 @@ import math
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, replace
 
+from model.counsel.screening import Guess, Screen
+from model.counsel.shipment_screening import ShipmentScreen
 from model.judge.check import Evaluation, JudgedRoute, check, judge_route
 from model.judge.clock import with_all_setups
 from model.judge.ends import with_ends
-from model.judge.launch_sites import without_idle_stops
 from model.judge.lags import Awaited, soonest_across
+from model.judge.launch_sites import without_idle_stops
 from model.judge.metrics import unassigned_cost
 from model.judge.past import EVERYTHING_OPEN, Past, Vehicle
 from model.judge.places import (
@@ -19,8 +21,6 @@ from model.judge.places import (
 )
 from model.judge.retiming import TimedRoute, read_route, time_route
 from model.judge.rules import Violation
-from model.counsel.screening import Guess, Screen
-from model.counsel.shipment_screening import ShipmentScreen
 from model.judge.timing import RouteDecision
 from model.problem import Problem, Shipment
 from model.solution import Solution

@@ -13,21 +13,22 @@ from typing import Literal, NamedTuple
 
 from model.counsel.alternatives import Findings, halt_of, here_of, with_customer
 from model.counsel.bench import Bench, Trial
-from model.judge.clock import MS_PER_MINUTE, opening
-from model.judge.driving import travel_duration
-from model.judge.energy import charges, sortie_energy
-from model.counsel.flight_limits import flight_limits, hour_limits, hub_limits, one_km_more
-from model.judge.freshness import excess_aboard
+from model.counsel.flight_limits import hour_limits, hub_limits
 from model.counsel.lifting import lifted
+from model.counsel.screening import share_over
+from model.counsel.work_limits import (
+    between_limits, break_limits, duty_rules, fleet_limits, loosened, used_by,
+)
+from model.judge.clock import MS_PER_MINUTE, opening
+from model.judge.energy import charges, sortie_energy
+from model.judge.freshness import excess_aboard
 from model.judge.loads import highest, sortie_loads
 from model.judge.places import Place
 from model.judge.rules import airborne_duration, farthest
-from model.counsel.screening import share_over
-from model.counsel.work_limits import between_limits, duty_limits, fleet_limits, rest_limits
 from model.problem import (
-    MAX_POWER, MAX_QUANTITY, MICROJOULES_PER_WH, MM_PER_KM, UNLIMITED, DroneType, Energy, Problem,
-    VehicleType,
+    MAX_POWER, MAX_QUANTITY, MICROJOULES_PER_WH, UNLIMITED, DroneType, Energy, Problem, VehicleType,
 )
+from model.problem.limits import LIMITS
 from model.solution import Sortie, Trip
 
 Unit = Literal["minute", "unit", "km", "vehicle", "trip", "Wh", "W", "rule"]
@@ -188,13 +189,12 @@ def _customer_limits(bench: Bench, node: int) -> Iterator[Limit]:
         yield Limit(f"{window}{first}.earliest", "customer", None, "minute", _in_minutes(slack),
                     with_customer(problem, node, changed))
     trip = _trip_of(bench)
-    if customer.max_time_aboard is not None:
-        slack = None
-        if trip is not None and halt is not None:
-            slack = max(0, -excess_aboard(problem, _kind_of(bench), trip, halt))
-        enough = min(customer.max_time_aboard + MS_PER_MINUTE, MAX_QUANTITY)
-        yield Limit("max_time_aboard", "customer", None, "minute", _in_minutes(slack),
-                    with_customer(problem, node, replace(customer, max_time_aboard=enough)))
+    used = {}
+    if trip is not None and halt is not None and customer.max_time_aboard is not None:
+        excess = excess_aboard(problem, _kind_of(bench), trip, halt)
+        used["time_aboard"] = min(customer.max_time_aboard + excess, customer.max_time_aboard)
+    for field, unit, left, looser in loosened(customer, used, "customer"):
+        yield Limit(field, "customer", None, unit, left, with_customer(problem, node, looser))
     if customer.release_time > 0:
         slack = None if trip is None else trip.stops[0].arrival - customer.release_time
         changed = replace(customer, release_time=max(0, customer.release_time - MS_PER_MINUTE))
@@ -279,31 +279,16 @@ def _truck_limits(bench: Bench, kind: VehicleType, is_here: bool) -> Iterator[_C
         slack = None if trip is None else (most - trip.highest_load[dimension]) / 10**places
         yield (_capacity_field("capacity", kind, dimension), "unit", slack,
                replace(kind, capacity=_one_more(kind.capacity, dimension, 10**places)))
-    if kind.latest < min(UNLIMITED, bench.problem.depots[kind.ends_at].latest):
-        end = None
-        if found is not None:
-            end = bench.plan.solution.routes[found.route].trips[-1].stops[-1].departure
-        yield ("shift.latest", "minute",
-               _in_minutes(None if end is None else kind.latest - end),
-               replace(kind, latest=min(kind.latest + MS_PER_MINUTE, UNLIMITED)))
-    if kind.max_working_duration is not None:
-        slack = (None if measured is None
-                 else _in_minutes(kind.max_working_duration - measured.working_duration))
-        longer = min(kind.max_working_duration + MS_PER_MINUTE, MAX_QUANTITY)
-        yield ("max_working_duration", "minute", slack, replace(kind, max_working_duration=longer))
-    if kind.max_travel_duration is not None:
-        slack = None if found is None else _in_minutes(kind.max_travel_duration - travel_duration(
-            bench.plan.solution.routes[found.route].trips))
-        longer = min(kind.max_travel_duration + MS_PER_MINUTE, MAX_QUANTITY)
-        yield ("max_travel_duration", "minute", slack, replace(kind, max_travel_duration=longer))
-    yield from duty_limits(kind, measured, trip)
-    yield from rest_limits(
+    used = {}
+    if found is not None and measured is not None:
+        used = used_by(kind, bench.plan.solution.routes[found.route], measured, found.place.trip)
+    closes = bench.problem.depots[kind.ends_at].latest
+    for limit in loosened(kind, used, "vehicle_type", "flyer"):
+        if limit[0] != LIMITS["shift"].path or kind.latest < closes:
+            yield limit
+    yield from duty_rules(kind)
+    yield from break_limits(
         bench.problem, kind, None if found is None else bench.plan.solution.routes[found.route])
-    yield from flight_limits(kind, trip)
-    if kind.max_trip_distance is not None:
-        slack = None if trip is None else (kind.max_trip_distance - trip.distance) / MM_PER_KM
-        further = min(kind.max_trip_distance + MM_PER_KM, MAX_QUANTITY)
-        yield "max_trip_distance", "km", slack, replace(kind, max_trip_distance=further)
 
 
 def _drone_limits(bench: Bench, kind: VehicleType, is_here: bool) -> Iterator[_Changed]:
@@ -326,21 +311,18 @@ def _limits_of(bench: Bench, kind: VehicleType, index: int,
         sortie = trip.sorties[found.flight]
     if sortie is not None and kind.drone_index(sortie.drone) != index:
         sortie = None
-    if drones.endurance < UNLIMITED:
-        slack = None
-        if sortie is not None and trip is not None:
-            flown = airborne_duration(bench.problem, drones, trip, sortie)
-            slack = _in_minutes(drones.endurance - flown)
-        longer = min(drones.endurance + MS_PER_MINUTE, UNLIMITED)
-        yield "endurance", "minute", slack, replace(drones, endurance=longer)
-    yield from _permit_limits(bench, drones, trip, sortie)
-    if drones.batteries is not None:
-        slack = None
-        if trip is not None:
-            used = [each for each in trip.sorties if kind.drone_index(each.drone) == index]
-            slack = float(drones.batteries - len(used))
-        richer = replace(drones, batteries=drones.batteries + 1)
-        yield "turnaround.batteries", "unit", slack, richer
+    used = {}
+    if trip is not None:
+        aboard = [each for each in trip.sorties if kind.drone_index(each.drone) == index]
+        used["batteries_aboard"] = len(aboard)
+    if sortie is not None and trip is not None:
+        used["endurance"] = airborne_duration(bench.problem, drones, trip, sortie)
+        ends = [trip.stops[stop].node for stop in (sortie.launch_stop, sortie.recovery_stop)]
+        used["range"] = max(
+            [farthest(bench.problem, drones, ends, each.node) for each in sortie.visits])
+    yield from loosened(drones, used, "flyer", "drones")
+    if drones.storms:
+        yield "max_wind_kmh", "rule", None, replace(drones, storms=())
     yield from _energy_limits(bench, kind, drones, trip, sortie)
     for dimension, (most, places) in enumerate(zip(drones.capacity, bench.problem.amount_decimals,
                                                    strict=True)):
@@ -351,20 +333,6 @@ def _limits_of(bench: Bench, kind: VehicleType, index: int,
         more = _one_more(drones.capacity, dimension, 10**places)
         yield (_capacity_field("capacity", kind, dimension), "unit", slack,
                replace(drones, capacity=more))
-
-
-def _permit_limits(bench: Bench, drones: DroneType, trip: Trip | None,
-                   sortie: Sortie | None) -> Iterator[tuple[str, Unit, float | None, DroneType]]:
-    """Yield what permits ask of drones, one of whom flies a sortie of a trip, if any."""
-    if drones.max_range is not None:
-        slack = None
-        if sortie is not None and trip is not None:
-            ends = [trip.stops[stop].node for stop in (sortie.launch_stop, sortie.recovery_stop)]
-            far = max(farthest(bench.problem, drones, ends, each.node) for each in sortie.visits)
-            slack = (drones.max_range - far) / MM_PER_KM
-        yield "max_range", "km", slack, replace(drones, max_range=one_km_more(drones.max_range))
-    if drones.storms:
-        yield "max_wind_kmh", "rule", None, replace(drones, storms=())
 
 
 def _energy_limits(bench: Bench, kind: VehicleType, drones: DroneType, trip: Trip | None,

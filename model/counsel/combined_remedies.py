@@ -3,12 +3,12 @@
 from collections.abc import Callable
 from typing import NamedTuple
 
-from model.judge.check import check
 from model.counsel.diagnoses import DIAGNOSES
 from model.counsel.diagnosis import Diagnosis
 from model.counsel.remedy import Part, Remedy
 from model.counsel.rest_remedies import rest_remedy
 from model.counsel.trial import Attempt
+from model.judge.check import check
 
 MOST_LIMITS = 4
 """At most so many are named: whoever has to change more won't."""

@@ -5,21 +5,21 @@ from collections.abc import Callable
 from dataclasses import replace
 from operator import gt
 
-from model.judge.clock import MS_PER_MINUTE
 from model.counsel.diagnosis import (
-    Diagnosis, drones_of, name_of, told_apart, up_to_tenth, with_type,
+    Diagnosis, drones_of, more_of, name_of, told_apart, up_to_tenth, with_type,
 )
 from model.counsel.flight_diagnoses import (
     endurance_broken, energy_broken, hours_broken, max_range_broken, unreachable_broken,
     wind_broken,
 )
+from model.counsel.remedy import LAST_WINDOW, Change, if_stated, in_km, in_minutes, in_units
+from model.counsel.trial import Attempt, attempts
+from model.judge.clock import MS_PER_MINUTE
 from model.judge.driving import excesses, travel_duration
 from model.judge.freshness import excess_aboard
 from model.judge.metrics import allowed_overtime
-from model.counsel.remedy import LAST_WINDOW, Change, if_stated, in_km, in_minutes, in_units
 from model.judge.rules import amounts
-from model.counsel.trial import Attempt, attempts
-from model.problem import MAX_QUANTITY, MM_PER_KM, UNLIMITED, Depot, Overtime, Problem
+from model.problem import MM_PER_KM, UNLIMITED, Depot, Overtime, Problem
 from model.solution import Stop, Visit
 
 
@@ -94,27 +94,21 @@ def _trip_distance(attempt: Attempt) -> Diagnosis:
     limit = vehicle_type.max_trip_distance or 0
     distance = attempt.evaluation.routes[0].trips[0].distance
     excess = up_to_tenth(distance - limit, MM_PER_KM)
-    enough = limit + excess
-    changed = replace(vehicle_type, max_trip_distance=min(enough, MAX_QUANTITY))
+    remedy, changed = more_of("trip_distance", vehicle_type, excess)
     return Diagnosis(
-        "RANGE",
-        f"A trip there and back is {in_km(excess)} longer than a trip may be.",
-        if_stated(Change("trip_distance", quantity=excess), enough),
-        with_type(attempt, changed),
-    )
+        "RANGE", f"A trip there and back is {in_km(excess)} longer than a trip may be.", remedy,
+        with_type(attempt, changed))
 
 
 def _travel_duration(attempt: Attempt) -> Diagnosis:
     kind, limit = attempt.vehicle_type, attempt.vehicle_type.max_travel_duration or 0
     travel = travel_duration(attempt.solution.routes[0].trips)
     excess = up_to_tenth(travel - limit, MS_PER_MINUTE)
-    changed = replace(kind, max_travel_duration=min(limit + excess, MAX_QUANTITY))
+    remedy, changed = more_of("travel", kind, excess, kind.id)
     return Diagnosis(
         "TRAVEL_DURATION",
         f"The way there and back takes {in_minutes(excess)} more than {kind.id} may travel.",
-        if_stated(Change("travel", kind.id, excess), limit + excess),
-        with_type(attempt, changed),
-    )
+        remedy, with_type(attempt, changed))
 
 
 def _halt(attempt: Attempt) -> Stop | Visit:
@@ -198,14 +192,11 @@ def _time_aboard(attempt: Attempt) -> Diagnosis:
     customer, trip = attempt.customer, attempt.solution.routes[0].trips[0]
     too_long = excess_aboard(attempt.problem, attempt.vehicle_type, trip, _halt(attempt))
     excess = up_to_tenth(too_long, MS_PER_MINUTE)
-    enough = (customer.max_time_aboard or 0) + excess
-    changed = replace(customer, max_time_aboard=min(enough, MAX_QUANTITY))
+    remedy, changed = more_of("time_aboard", customer, excess)
     return Diagnosis(
         "TIME_ABOARD",
-        f"Its parcel would be aboard {in_minutes(excess)} longer than it may be.",
-        if_stated(Change("time_aboard", quantity=excess), enough),
-        replace(attempt.problem, customers=(changed,)),
-    )
+        f"Its parcel would be aboard {in_minutes(excess)} longer than it may be.", remedy,
+        replace(attempt.problem, customers=(changed,)))
 
 
 def _more_overtime(attempt: Attempt, overtime: Overtime, code: str, message: str) -> Diagnosis:
@@ -287,14 +278,10 @@ def _shift(attempt: Attempt) -> Diagnosis:
             "overtime allowed.")
     late = up_to_tenth(attempt.evaluation.makespan - vehicle_type.latest, MS_PER_MINUTE)
     home = "done" if attempt.problem.is_nowhere(vehicle_type.ends_at) else "back"
-    enough = vehicle_type.latest + late
-    changed = replace(vehicle_type, latest=min(enough, UNLIMITED))
+    remedy, changed = more_of("shift", vehicle_type, late, vehicle_type.id)
     return Diagnosis(
-        "SHIFT",
-        f"{vehicle_type.id} would be {home} {in_minutes(late)} after its shift ends.",
-        if_stated(Change("shift", vehicle_type.id, late), enough),
-        with_type(attempt, changed),
-    )
+        "SHIFT", f"{vehicle_type.id} would be {home} {in_minutes(late)} after its shift ends.",
+        remedy, with_type(attempt, changed))
 
 
 def _working_hours(attempt: Attempt) -> Diagnosis:
@@ -307,14 +294,11 @@ def _working_hours(attempt: Attempt) -> Diagnosis:
             attempt, overtime, "WORKING_HOURS",
             f"Serving it alone takes {in_minutes(excess)} more than {vehicle_type.id} may work "
             "with all the overtime allowed.")
-    enough = limit + excess
-    changed = replace(vehicle_type, max_working_duration=min(enough, MAX_QUANTITY))
+    remedy, changed = more_of("work", vehicle_type, excess, vehicle_type.id)
     return Diagnosis(
         "WORKING_HOURS",
         f"Serving it alone takes {in_minutes(excess)} more than {vehicle_type.id} may work.",
-        if_stated(Change("work", vehicle_type.id, excess), enough),
-        with_type(attempt, changed),
-    )
+        remedy, with_type(attempt, changed))
 
 
 def _breaks(attempt: Attempt) -> Diagnosis:
@@ -329,14 +313,14 @@ def _driving(attempt: Attempt) -> Diagnosis:
         return Diagnosis("DRIVING", f"Serving it alone takes longer than drivers of {kind.id} may "
                          "be at the wheel, or at work.")
     excess = up_to_tenth(found[0].excess, MS_PER_MINUTE)
-    enough = up_to_tenth(rules.max_driving_per_day + excess, MS_PER_MINUTE)
-    changed = replace(rules, max_driving_per_day=min(enough, UNLIMITED))
+    day = rules.max_driving_per_day
+    enough = up_to_tenth(day + excess, MS_PER_MINUTE)
+    remedy, changed = more_of("driving_day", kind, enough - day, kind.id)
     return Diagnosis(
         "DRIVING",
         f"Serving it alone takes {in_minutes(excess)} more than drivers of {kind.id} may be at the "
         "wheel in a day.",
-        if_stated(Change("driving_day", kind.id, enough), enough),
-        with_type(attempt, replace(kind, driving=changed)))
+        remedy, with_type(attempt, changed))
 
 
 def _unreachable(attempt: Attempt) -> Diagnosis:

@@ -1,11 +1,14 @@
 """A broken rule in words, what would keep it, and the words that are the same for all rules."""
 
 from dataclasses import replace
-from typing import NamedTuple
+from typing import NamedTuple, TypeVar
 
-from model.counsel.remedy import Part
+from model.counsel.remedy import Change, Part, if_stated
 from model.counsel.trial import Attempt
 from model.problem import DroneType, Problem, VehicleType
+from model.problem.limits import LIMITS
+
+Owner = TypeVar("Owner")
 
 
 class Diagnosis(NamedTuple):
@@ -15,6 +18,14 @@ class Diagnosis(NamedTuple):
     message: str
     remedy: Part = ()
     problem: Problem | None = None
+
+
+def more_of(name: str, owner: Owner, excess: int, of: str = "") -> tuple[Part, Owner]:
+    """Return what says that a limit would have to be so much more, and its owner with that."""
+    limit = LIMITS[name]
+    enough = (limit.of(owner) or 0) + excess
+    return (if_stated(Change(name, of, enough if limit.is_total else excess), enough),
+            limit.raised(owner, excess))
 
 
 def drones_of(attempt: Attempt) -> DroneType:

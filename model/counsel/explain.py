@@ -11,14 +11,10 @@ from functools import lru_cache
 from itertools import chain
 from math import ceil
 
-from model.judge.check import check
 from model.counsel.combined_remedies import Diagnose, combined_remedy, customer_broken
-from model.judge.company import kept_off, who_decides, who_waits
 from model.counsel.diagnoses import DIAGNOSES, missed_window
 from model.counsel.diagnosis import Diagnosis
-from model.judge.hubs import lacks_battery, lacks_charger
 from model.counsel.lag_remedies import lag_remedy
-from model.judge.metrics import unassigned_cost
 from model.counsel.remedy import Change, Remedy, remedy_of
 from model.counsel.rest_remedies import rest_remedy
 from model.counsel.shipment_diagnoses import shipment_broken
@@ -26,6 +22,10 @@ from model.counsel.through import BY_LEGS, Passage, names_of, passage_to
 from model.counsel.trial import (
     Attempt, attempts, small_problem, try_shipment, try_truck,
 )
+from model.judge.check import check
+from model.judge.company import kept_off, who_decides, who_waits
+from model.judge.hubs import lacks_battery, lacks_charger
+from model.judge.metrics import unassigned_cost
 from model.problem import MAX_MONEY, Problem, Shipment
 from model.solution import Solution
 

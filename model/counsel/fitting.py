@@ -13,11 +13,11 @@ from itertools import chain, takewhile
 from model.counsel.alternatives import best_of, try_places
 from model.counsel.bench import Bench, Draft, Trial
 from model.counsel.group_moves import Unit, companions_to, move_all, not_with
+from model.counsel.screening import share_over
 from model.judge.past import Vehicle
 from model.judge.past_rules import PAST_RULES
 from model.judge.places import Place, find_place
 from model.judge.rules import Violation
-from model.counsel.screening import share_over
 
 SPARE = 8
 """So many more places than asked for are judged with the whole plan if these break rules there."""

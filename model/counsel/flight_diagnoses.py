@@ -4,17 +4,18 @@
 from dataclasses import replace
 from math import ceil
 
-from model.judge.clock import MS_PER_MINUTE
 from model.counsel.diagnosis import (
-    Diagnosis, drones_of, flyer_of, name_of, told_apart, up_to_tenth, with_flyer, with_type,
+    Diagnosis, drones_of, flyer_of, more_of, name_of, told_apart, up_to_tenth, with_flyer,
+    with_type,
 )
+from model.counsel.remedy import Change, in_km, in_minutes
+from model.counsel.trial import Attempt
+from model.judge.clock import MS_PER_MINUTE
 from model.judge.energy import sortie_energy
 from model.judge.flown_trips import airborne, trip_energy
-from model.counsel.remedy import Change, if_stated, in_km, in_minutes
 from model.judge.rules import airborne_duration, farthest, watt_hours
-from model.counsel.trial import Attempt
 from model.problem import (
-    MAX_BATTERY, MAX_POWER, MAX_QUANTITY, MICROJOULES_PER_WH, MM_PER_KM, UNLIMITED, Energy,
+    MAX_BATTERY, MAX_POWER, MICROJOULES_PER_WH, MM_PER_KM, Energy,
     VehicleType,
 )
 
@@ -34,13 +35,12 @@ def endurance_broken(attempt: Attempt) -> Diagnosis:
     lasted = (airborne(trip) if isinstance(drones, VehicleType)
               else airborne_duration(attempt.problem, drones, trip, trip.sorties[0]))
     excess = up_to_tenth(lasted - drones.endurance, MS_PER_MINUTE)
-    enough = drones.endurance + excess
-    changed = replace(drones, endurance=min(enough, UNLIMITED))
+    remedy, changed = more_of("endurance", drones, excess, told_apart(drones))
     return Diagnosis(
         "RANGE",
         f"A flight from the depot and back lasts {in_minutes(excess)} more than the endurance"
         f"{name_of(drones)}.",
-        if_stated(Change("endurance", told_apart(drones), excess), enough),
+        remedy,
         with_flyer(attempt, changed),
     )
 
@@ -57,14 +57,12 @@ def max_range_broken(attempt: Attempt) -> Diagnosis:
               else [visit.node for visit in sortie.visits])
     far = max([farthest(problem, flyer, meetings, node) for node in served])
     excess = up_to_tenth(far - (flyer.max_range or 0), MM_PER_KM)
-    enough = (flyer.max_range or 0) + excess
-    farther = replace(flyer, max_range=min(enough, MAX_QUANTITY))
+    remedy, farther = more_of("range", flyer, excess, told_apart(flyer))
     changed = (farther if isinstance(farther, VehicleType)
                else replace(kind, drones=farther))
     return Diagnosis("RANGE", f"It lies {in_km(excess)} farther away than the max_range"
                      f"{name_of(flyer)}.",
-                     if_stated(Change("range", told_apart(flyer), excess), enough),
-                     with_type(attempt, changed))
+                     remedy, with_type(attempt, changed))
 
 
 def wind_broken(attempt: Attempt) -> Diagnosis:

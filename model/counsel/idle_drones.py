@@ -14,10 +14,10 @@ from typing import NamedTuple
 import numpy as np
 
 from model.counsel.bench import Bench, Setting, Trial
+from model.counsel.screening import Screen
 from model.judge.check import JudgedRoute
 from model.judge.past import Vehicle
 from model.judge.places import Means, halts
-from model.counsel.screening import Screen
 from model.problem import UNREACHABLE, Customer, DroneType, Problem, VehicleType
 from model.solution import Route, Solution
 

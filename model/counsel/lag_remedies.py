@@ -3,14 +3,14 @@
 from collections.abc import Iterator
 from dataclasses import replace
 
+from model.counsel.diagnosis import up_to_tenth
+from model.counsel.remedy import Remedy, remedy_of
+from model.counsel.trial import attempts
 from model.judge.check import check
 from model.judge.clock import MS_PER_MINUTE
 from model.judge.company import who_waits
-from model.counsel.diagnosis import up_to_tenth
 from model.judge.lags import halts_of, starts_across, starts_of
-from model.counsel.remedy import Remedy, remedy_of
 from model.judge.timing import RouteDecision, TripDecision, read_decision, schedule
-from model.counsel.trial import attempts
 from model.problem import MAX_QUANTITY, Problem, Relation
 from model.solution import Route, Solution
 

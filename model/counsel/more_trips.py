@@ -8,14 +8,14 @@ import time
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
-from model.judge.ends import with_ends
 from model.counsel.explain import Reason
+from model.counsel.remedy import remedy_of
+from model.counsel.screening import first_drones
+from model.judge.ends import with_ends
 from model.judge.hubs import lacks_charger
 from model.judge.past import Past, Vehicle
 from model.judge.places import Place, route_with
-from model.counsel.remedy import remedy_of
 from model.judge.retiming import TimedRoute, read_route, time_route
-from model.counsel.screening import first_drones
 from model.problem import Problem, VehicleType
 from model.solution import Route, Solution
 

@@ -8,6 +8,7 @@ from typing import NamedTuple
 from model.judge.clock import MS_PER_MINUTE
 from model.judge.rules import decimal
 from model.problem import MAX_QUANTITY, MM_PER_KM, Problem
+from model.problem.limits import LIMITS, StatedLimit
 
 LAST_WINDOW = -1
 
@@ -105,13 +106,23 @@ def _wider(change: Change) -> str:
     return f"if its {_window(change)}{where} closed {in_minutes(change.quantity)} later"
 
 
-def _number(change: Change) -> str:
-    return "1 stop" if change.quantity == 1 else f"{change.quantity:g} stops"
-
-
 BEGINNINGS = {"unassigned_cost": "served", "own_unassigned_cost": "served", "buffer": "lies"}
 
+IN_WORDS: dict[str, Callable[[float], str]] = {
+    "minute": in_minutes, "km": in_km, "unit": lambda number: f"{number:g}"}
+"""A number of a limit, by what people count it in."""
+
+
+def _stated(limit: StatedLimit) -> Callable[[Change], str]:
+    """Return what tells in words how much of a limit suffices."""
+    of = _flyers if limit.whose == "flyer" else lambda change: change.of
+    return lambda change: limit.words.format(
+        of=of(change), quantity=IN_WORDS[limit.step.name](change.quantity),
+        s="" if change.quantity == 1 else "s")
+
+
 CLAUSES: dict[str, Callable[[Change], str]] = {
+    **{name: _stated(limit) for name, limit in LIMITS.items() if limit.words},
     "vehicles": lambda change: f"if {' and '.join(change.names)} may serve it",
     "by_truck": lambda _: "if a truck may serve it",
     "by_drone": lambda _: "if a drone may serve it",
@@ -123,36 +134,16 @@ CLAUSES: dict[str, Callable[[Change], str]] = {
     "window": _wider,
     "end_window": lambda change: f"if the {_window(change)} of its {change.of} closed "
                                  f"{in_minutes(change.quantity)} later",
-    "time_aboard": lambda change: f"if it could be aboard {in_minutes(change.quantity)} longer",
-    "time_between": lambda change:
-        f"if max_time_between were at least {in_minutes(change.quantity)}",
     "detour": lambda change:
         f"if max_detour were at least {decimal(int(change.quantity), THOUSANDTHS)}",
     "lag": lambda change: f"if max_lag of its orders were at least {in_minutes(change.quantity)}",
     "relations": lambda _: "without its relations",
-    "endurance": lambda change:
-        f"if endurance{_flyers(change)} were {in_minutes(change.quantity)} longer",
-    "range": lambda change: f"if max_range{_flyers(change)} were {in_km(change.quantity)} longer",
     "wind": lambda change: f"without max_wind_kmh{_flyers(change)}",
     "battery": lambda change:
         f"with a battery{_flyers(change)} of {decimal(int(change.quantity), 1)} Wh more",
     "batteries_aboard": lambda change: f"if {change.of} carried 1 battery{_drones(change)}",
     "launch": lambda change: f"if drones may take off at {change.of}",
-    "trip_distance": lambda change: f"if trips could be {in_km(change.quantity)} longer",
-    "travel": lambda change: f"if {change.of} could travel {in_minutes(change.quantity)} longer",
-    "stops": lambda change: f"if {change.of} could make {_number(change)}",
-    "sorties": lambda change: f"if {change.of} could launch 1 sortie",
-    "shift": lambda change: f"if {change.of}'s shift ended {in_minutes(change.quantity)} later",
-    "work": lambda change: f"if {change.of} could work {in_minutes(change.quantity)} longer",
-    "overtime": lambda change:
-        f"if {change.of} could work {in_minutes(change.quantity)} more overtime",
     "depot_hours": lambda change: f"if {change.of} closed {in_minutes(change.quantity)} later",
-    "driving_day": lambda change:
-        f"if {change.of}'s drivers could drive {in_minutes(change.quantity)} a day",
-    "driving": lambda change:
-        f"if {change.of}'s drivers could drive {in_minutes(change.quantity)} without a rest",
-    "work_spell": lambda change:
-        f"if {change.of}'s drivers could work {in_minutes(change.quantity)} without a rest",
     "rests_in_flight": lambda change: f"if {change.of}'s drivers may rest while drones fly",
     "break_load": lambda change: f"if break {change.of} allowed {_amounts(change)} aboard",
     "break_start": lambda change:

@@ -6,13 +6,13 @@ Each change is tried: the trip is planned and judged again.
 from collections.abc import Iterator
 from dataclasses import replace
 
-from model.judge.breaks import begin_of, window_of
-from model.judge.clock import MS_PER_MINUTE
 from model.counsel.diagnosis import up_to_tenth, with_type
-from model.judge.driving import travel_duration
-from model.judge.loads import trip_loads
 from model.counsel.remedy import Change, Part, in_units
 from model.counsel.trial import Attempt, again
+from model.judge.breaks import begin_of, window_of
+from model.judge.clock import MS_PER_MINUTE
+from model.judge.driving import travel_duration
+from model.judge.loads import trip_loads
 from model.problem import MAX_QUANTITY, Break, VehicleType
 from model.solution import Trip
 

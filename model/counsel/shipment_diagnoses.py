@@ -3,14 +3,14 @@
 from collections.abc import Iterator
 from dataclasses import replace
 
-from model.judge.clock import MS_PER_MINUTE
 from model.counsel.diagnoses import DIAGNOSES
 from model.counsel.diagnosis import Diagnosis, up_to_tenth, with_type
+from model.counsel.remedy import LAST_WINDOW, Change, in_minutes, in_units
+from model.counsel.trial import Attempt
+from model.judge.clock import MS_PER_MINUTE
 from model.judge.lags import halts_of, starts_of
 from model.judge.pairs import times_between
-from model.counsel.remedy import LAST_WINDOW, Change, in_minutes, in_units
 from model.judge.rules import amounts
-from model.counsel.trial import Attempt
 from model.problem import MAX_QUANTITY, UNLIMITED
 from model.problem.shipment import MOST_DETOUR
 

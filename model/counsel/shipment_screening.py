@@ -11,14 +11,14 @@ from collections.abc import Iterable, Iterator, Sequence
 from itertools import chain, groupby, islice, permutations, product, takewhile
 from math import prod
 
+from model.counsel.screening import (
+    ANYHOW, BY_TRUCK, SPANS, Guess, Screen, first_drones, free_drone, share_over, slacks_of,
+)
 from model.judge.clock import service_start
 from model.judge.loads import trip_loads
 from model.judge.metrics import allowed_overtime
 from model.judge.past import Past, Vehicle
 from model.judge.places import Means, Place
-from model.counsel.screening import (
-    ANYHOW, BY_TRUCK, SPANS, Guess, Screen, first_drones, free_drone, share_over, slacks_of,
-)
 from model.problem import MM_PER_KM, MS_PER_HOUR, UNREACHABLE, Problem, Shipment
 from model.solution import Solution, Stop, Trip
 

@@ -12,9 +12,9 @@ from typing import NamedTuple
 
 import numpy as np
 
-from model.judge.clock import MS_PER_MINUTE
 from model.counsel.diagnosis import up_to_tenth
 from model.counsel.remedy import in_km, in_minutes
+from model.judge.clock import MS_PER_MINUTE
 from model.judge.driving import travel_duration
 from model.judge.metrics import allowed_overtime
 from model.judge.network import NEVER, Network, network_of

@@ -1,49 +1,69 @@
 """What limits the work of those who drive, each a little looser, or no longer."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import replace
-from typing import Literal
+from typing import Literal, TypeVar
 
 from model.judge.breaks import begin_of, window_of
 from model.judge.clock import MS_PER_MINUTE
-from model.judge.driving import driver_behind
+from model.judge.driving import driver_behind, travel_duration
 from model.judge.loads import trip_loads
-from model.judge.metrics import RouteMetrics, TripMetrics
+from model.judge.metrics import RouteMetrics
 from model.judge.pairs import times_between
 from model.problem import MAX_QUANTITY, UNLIMITED, Break, Problem, VehicleType
+from model.problem.limits import Whose, limits_of
 from model.solution import Route, Solution, Trip
 
-_Unit = Literal["minute", "unit", "rule"]
-_Changed = tuple[str, _Unit, float | None, VehicleType]
-"""A field, the unit of one more, how many are left, and the type with one more, or without it."""
+Unit = Literal["minute", "km", "unit", "rule"]
+"""Of a rule without a number a unit more is the rule itself, lifted."""
+
+Owner = TypeVar("Owner")
+
+_Changed = tuple[str, Unit, float | None, Owner]
+"""A field, the unit of one more, how many are left, and its owner with one more, or without it."""
 
 
-def duty_limits(kind: VehicleType, measured: RouteMetrics | None,
-                trip: TripMetrics | None) -> Iterator[_Changed]:
-    """Yield what a type of vehicle may work overtime, and have on a trip."""
-    if kind.overtime is not None and kind.overtime.max_duration < UNLIMITED:
-        most = kind.overtime.max_duration
-        longer = replace(kind.overtime, max_duration=most + MS_PER_MINUTE)
-        slack = None if measured is None else (most - measured.overtime) / MS_PER_MINUTE
-        yield "overtime.max_duration", "minute", slack, replace(kind, overtime=longer)
-    if kind.max_stops is not None:
-        slack = None if trip is None else float(kind.max_stops - len(trip.stop_loads) + 2)
-        yield "max_stops", "unit", slack, replace(kind, max_stops=kind.max_stops + 1)
+def loosened(owner: Owner, used: Mapping[str, int], *whose: Whose) -> Iterator[_Changed[Owner]]:
+    """Yield the numbers that limit somebody; `used` is how much of each is, as far as known."""
+    for name, limit, most in limits_of(owner, *whose):
+        slack = (most - used[name]) / limit.step.size if name in used else None
+        yield limit.path, limit.step.name, slack, limit.raised(owner, limit.step.size)
+
+
+def used_by(kind: VehicleType, route: Route, measured: RouteMetrics, number: int) -> dict[str, int]:
+    """Return how much a route has of what limits it, and its trip of a number."""
+    trip = measured.trips[number]
+    used = {
+        "shift": route.trips[-1].stops[-1].departure, "work": measured.working_duration,
+        "travel": travel_duration(route.trips), "overtime": measured.overtime,
+        "stops": len(trip.stop_loads) - 2, "sorties": len(trip.sorties),
+        "trip_distance": trip.distance,
+        "endurance": trip.duration - kind.launch_duration - kind.recovery_duration}
+    if kind.driving is not None:
+        used["driving_day"] = driver_behind(kind.driving, kind, route.trips).day
+    return used
+
+
+def duty_rules(kind: VehicleType) -> Iterator[_Changed[VehicleType]]:
+    """Yield what a type of vehicle may not do, and its drones."""
     if kind.pickups == "last":
         yield "pickups", "rule", None, replace(kind, pickups="any")
-    if kind.max_sorties is not None:
-        slack = None if trip is None else float(kind.max_sorties - len(trip.sorties))
-        yield "max_sorties", "unit", slack, replace(kind, max_sorties=kind.max_sorties + 1)
     if kind.most_airborne < kind.num_drones:
         yield "max_airborne", "unit", None, replace(kind, max_airborne=kind.most_airborne + 1)
     if kind.lifo:
         yield "lifo", "rule", None, replace(kind, lifo=False)
     if kind.truck_waits:
         yield "truck_waits", "rule", None, replace(kind, truck_waits=False)
+    if kind.storms:
+        yield "max_wind_kmh", "rule", None, replace(kind, storms=())
+    if kind.driving is not None and not kind.driving.while_drones_fly:
+        yield ("driving_rules.while_drones_fly", "rule", None,
+               replace(kind, driving=replace(kind.driving, while_drones_fly=True)))
 
 
-def rest_limits(problem: Problem, kind: VehicleType, route: Route | None) -> Iterator[_Changed]:
-    """Yield when breaks begin, what is aboard meanwhile, the breaks themselves, and long drives.
+def break_limits(problem: Problem, kind: VehicleType,
+                 route: Route | None) -> Iterator[_Changed[VehicleType]]:
+    """Yield when breaks begin, what is aboard meanwhile, and the breaks themselves.
 
     `route` is one of the type's that has the customer; None: none has.
     """
@@ -66,7 +86,6 @@ def rest_limits(problem: Problem, kind: VehicleType, route: Route | None) -> Ite
             yield (f"{name}.max_load" + (f"[{dimension}]" if len(limit) > 1 else ""), "unit",
                    None if taken is None else (most - taken[1][dimension]) / unit,
                    with_break(replace(each, max_load=tuple(limit))))
-    yield from _driving_limits(kind, route)
 
 
 def _taken(problem: Problem, kind: VehicleType, number: int,
@@ -79,29 +98,6 @@ def _taken(problem: Problem, kind: VehicleType, number: int,
                 return ((closes - taken.start) / MS_PER_MINUTE,
                         trip_loads(problem, kind, trip)[taken.stop + 1])
     return None
-
-
-def _driving_limits(kind: VehicleType, route: Route | None) -> Iterator[_Changed]:
-    """Yield how long somebody may drive, or work, without a rest, and drive in a day."""
-    rules = kind.driving
-    if rules is None:
-        return
-    if rules.max_driving < UNLIMITED:
-        longer = replace(rules, max_driving=min(rules.max_driving + MS_PER_MINUTE, UNLIMITED))
-        yield "driving_rules.max_driving", "minute", None, replace(kind, driving=longer)
-    if rules.max_work < UNLIMITED:
-        longer = replace(rules, max_work=min(rules.max_work + MS_PER_MINUTE, UNLIMITED))
-        yield "driving_rules.max_work_before_break", "minute", None, replace(kind, driving=longer)
-    if rules.max_driving_per_day < UNLIMITED:
-        day = None if route is None else driver_behind(rules, kind, route.trips).day
-        longer = replace(rules, max_driving_per_day=min(rules.max_driving_per_day + MS_PER_MINUTE,
-                                                        UNLIMITED))
-        yield ("driving_rules.max_driving_per_day", "minute",
-               None if day is None else (rules.max_driving_per_day - day) / MS_PER_MINUTE,
-               replace(kind, driving=longer))
-    if not rules.while_drones_fly:
-        yield ("driving_rules.while_drones_fly", "rule", None,
-               replace(kind, driving=replace(rules, while_drones_fly=True)))
 
 
 _Whole = tuple[str, float | None, Problem]
@@ -117,14 +113,15 @@ def between_limits(problem: Problem, node: int, kind: VehicleType | None,
     each = problem.shipment_at.get(node)
     if each is None or each.max_time_between is None:
         return
-    slack = None
+    used = {}
     if kind is not None and trip is not None and each.max_detour is None:
-        slack = next((-excess / MS_PER_MINUTE for _, name, excess
-                      in times_between(problem, kind, trip) if name == each.id), None)
-    longer = replace(each, max_time_between=min(each.max_time_between + MS_PER_MINUTE,
-                                                MAX_QUANTITY))
-    yield "max_time_between", slack, replace(problem, shipments=tuple([
-        longer if other is each else other for other in problem.shipments]))
+        excess = next((excess for _, name, excess in times_between(problem, kind, trip)
+                       if name == each.id), None)
+        if excess is not None:
+            used["time_between"] = each.max_time_between + excess
+    for field, _, slack, longer in loosened(each, used, "shipment"):
+        yield field, slack, replace(problem, shipments=tuple([
+            longer if other is each else other for other in problem.shipments]))
 
 
 def fleet_limits(problem: Problem, solution: Solution) -> Iterator[_Whole]:

@@ -6,8 +6,8 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 from model.counsel.bench import Bench, Setting, Trial
-from model.judge.check import JudgedRoute
 from model.counsel.screening import BY_TRUCK, Screen
+from model.judge.check import JudgedRoute
 from model.problem import Problem
 from model.solution import Solution
 
