@@ -1,6 +1,7 @@
 """The rules that the tree's layout follows: who may import whom, and how long things may be."""
 
 import ast
+from collections import defaultdict
 from collections.abc import Callable
 from functools import cache
 from graphlib import TopologicalSorter
@@ -104,6 +105,17 @@ def test_rooms_of_app_import_only_those_on_floors_before_theirs() -> None:
 @pytest.mark.parametrize("part", [room, folder, str])
 def test_there_are_no_circles(package: str, part: Callable[[str], str]) -> None:
     TopologicalSorter(arrows(package, part)).prepare()
+
+
+def test_a_class_has_its_name_to_itself() -> None:
+    homes = defaultdict[str, list[str]](list)
+    for name, tree in sources().items():
+        if name.partition(".")[0] not in {"app", "model", "training"}:
+            continue
+        for node in ast.walk(tree):
+            if isinstance(node, ast.ClassDef) and not node.name.startswith("_"):
+                homes[node.name].append(name)
+    assert {name: files for name, files in homes.items() if len(files) > 1} == {}
 
 
 def test_files_and_functions_are_short_and_finished() -> None:

@@ -13,7 +13,7 @@ from model.counsel.bench import Bench, Trial
 from model.counsel.binding import Binding, Limit
 from model.judge.clock import window_of
 from model.counsel.explain import Reason
-from model.counsel.group_moves import Unit
+from model.counsel.group_moves import MovedUnit
 from model.counsel.idle_drones import Idle
 from model.judge.places import Found, find_place, halts
 from model.judge.rules import Violation
@@ -91,7 +91,7 @@ def _alternative(bench: Bench, each: Alternative) -> Data:
     }
 
 
-def companions_reply(problem: Problem, companions: Sequence[Unit]) -> Data:
+def companions_reply(problem: Problem, companions: Sequence[MovedUnit]) -> Data:
     """Return who goes along, if anybody does."""
     names = [problem.customer_at(problem.first_place(unit.node)).id
              if unit.shipment is None else unit.shipment.id for unit in companions]
@@ -104,7 +104,7 @@ def rules_reply(violations: Sequence[Violation]) -> list[Data]:
         (item.code, item.message) for item in telling(violations))]
 
 
-def placed_reply(bench: Bench, trial: Trial, companions: Sequence[Unit] = ()) -> Data:
+def placed_reply(bench: Bench, trial: Trial, companions: Sequence[MovedUnit] = ()) -> Data:
     """Return who serves the customer where and when in a plan, or all ends of the shipment."""
     moved = {*bench.nodes, *(node for unit in companions for node in unit.nodes)}
     placed = [(node, found, halt) for node in bench.nodes

@@ -57,7 +57,7 @@ class Subject(NamedTuple):
 
 
 @dataclass(frozen=True)
-class Question:
+class PlanQuestion:
     """What is asked of a plan, and until when it is to be answered, on `time.perf_counter`."""
 
     customer: str | None
@@ -186,11 +186,11 @@ def preparing_within(bounds: Bounds, should_stop: Callable[[], bool]) -> Prepari
 
 
 def _question(subject: Subject, drones: bool, options: ExplainOptions,
-              received_at: float, idle_drones: bool = False) -> Question:
+              received_at: float, idle_drones: bool = False) -> PlanQuestion:
     """Return what is asked, now that all that it is asked of is read."""
     now, limit = time.perf_counter(), options.time_limit
-    return Question(*subject, drones, idle_drones, now,
-                    max(received_at + limit, now + LEAST_TRYING * limit))
+    return PlanQuestion(*subject, drones, idle_drones, now,
+                        max(received_at + limit, now + LEAST_TRYING * limit))
 
 
 class _Explainer:
@@ -217,7 +217,7 @@ class _Explainer:
         self._planner = planner
         self._should_stop = should_stop
 
-    def answer(self, question: Question) -> Data:
+    def answer(self, question: PlanQuestion) -> Data:
         """Return the reply to a question."""
         reply, complete = nobody_reply(self._cost), True
         bench = self._bench(question)
@@ -244,7 +244,7 @@ class _Explainer:
         warnings = warning_replies(warning.within(PROBLEM) for warning in self._task.warnings)
         return reply | {"drones": drones, "complete": complete, "warnings": warnings}
 
-    def _bench(self, question: Question) -> Bench | None:
+    def _bench(self, question: PlanQuestion) -> Bench | None:
         """Return what tries whom is asked about elsewhere; None: nobody is."""
         if question.shipment is not None:
             node, whole = unit_named(self._problem, question.shipment)
@@ -255,7 +255,7 @@ class _Explainer:
                           node_named(self._problem, question.customer))
         return Bench(self._problem, self._solution, node, self._setting, self._judged)
 
-    def _of(self, question: Question, bench: Bench) -> tuple[Data, bool]:
+    def _of(self, question: PlanQuestion, bench: Bench) -> tuple[Data, bool]:
         share = ALTERNATIVES_SHARE * (0.3 if question.drones else 1.0)
         found = find_alternatives(bench, question.after(share))
         binding, in_time = find_binding(bench, found,
@@ -266,7 +266,7 @@ class _Explainer:
                                self._task.remedy),
                 found.is_complete and in_time)
 
-    def _of_drones(self, question: Question) -> tuple[Data, bool]:
+    def _of_drones(self, question: PlanQuestion) -> tuple[Data, bool]:
         now = time.perf_counter()
         until = now + SORTIES_SHARE * (question.until - now)
         worth = list(sorties_worth(self._problem, self._solution, self._setting, until,

@@ -10,8 +10,8 @@ from collections.abc import Collection, Iterator, Sequence
 from dataclasses import dataclass, replace
 from typing import Literal
 
-from model.counsel.bench import Bench, Draft, Trial
-from model.counsel.group_moves import Unit, companions_of, move_all
+from model.counsel.bench import Bench, Drafted, Trial
+from model.counsel.group_moves import MovedUnit, companions_of, move_all
 from model.counsel.screening import share_over
 from model.judge.clock import window_of
 from model.judge.past import Vehicle
@@ -48,7 +48,7 @@ class Alternative:
 
     kind: Kind
     trial: Trial
-    companions: tuple[Unit, ...] = ()  # who go along, by relations
+    companions: tuple[MovedUnit, ...] = ()  # who go along, by relations
     window: int | None = None  # which of several is the only one
     node: int | None = None  # whose window; None: nobody's
 
@@ -58,7 +58,7 @@ class Findings:
     """What was found by trying."""
 
     alternatives: tuple[Alternative, ...]
-    drafts: tuple[Draft, ...]  # of all vehicles, at every place tried
+    drafts: tuple[Drafted, ...]  # of all vehicles, at every place tried
     is_complete: bool  # no clock cut it short
 
 
@@ -87,7 +87,7 @@ def find_alternatives(bench: Bench, until: float = math.inf) -> Findings:
         alternatives += best_of(bench, "place", by_group.get((here.vehicle, here.by), ()))
         alternatives += best_of(bench, "by", [draft for (_, by), drafts in by_group.items()
                                             if by != here.by for draft in drafts])
-    vehicles: dict[Vehicle, list[Draft]] = {}
+    vehicles: dict[Vehicle, list[Drafted]] = {}
     for (vehicle, _), drafts in by_group.items():
         if found is None or vehicle != found.place.vehicle:
             vehicles.setdefault(vehicle, []).extend(drafts)
@@ -105,7 +105,7 @@ def find_alternatives(bench: Bench, until: float = math.inf) -> Findings:
                     is_complete and all_windows)
 
 
-def best_of(bench: Bench, kind: Kind, drafts: Sequence[Draft],
+def best_of(bench: Bench, kind: Kind, drafts: Sequence[Drafted],
           problem: Problem | None = None) -> Iterator[Alternative]:
     """Yield the best of some drafts, if there are any.
 
@@ -120,7 +120,7 @@ def best_of(bench: Bench, kind: Kind, drafts: Sequence[Draft],
         yield Alternative(kind, min(trials, key=lambda trial: trial.rank))
 
 
-def try_places(bench: Bench, until: float) -> tuple[dict[Group, list[Draft]], bool]:
+def try_places(bench: Bench, until: float) -> tuple[dict[Group, list[Drafted]], bool]:
     """Try the best places of each vehicle and means, and tell whether there was time for all.
 
     All of them have their first turn before any has its second.
@@ -132,7 +132,7 @@ def try_places(bench: Bench, until: float) -> tuple[dict[Group, list[Draft]], bo
     is_complete = time.perf_counter() < screened
     order = sorted([group for group, some in guesses.items() if some],
                    key=lambda group: guesses[group][0].rank)
-    tried: dict[Group, list[Draft]] = {}
+    tried: dict[Group, list[Drafted]] = {}
     enough = max(TRIES, ALL_TRIES // max(1, len(order)))
     for turn in range(max(MORE_TRIES, ALL_MORE_TRIES // max(1, len(order)))):
         for group in order:
@@ -144,7 +144,7 @@ def try_places(bench: Bench, until: float) -> tuple[dict[Group, list[Draft]], bo
     return tried, is_complete
 
 
-def _is_settled(drafts: Sequence[Draft], turn: int, enough: int) -> bool:
+def _is_settled(drafts: Sequence[Drafted], turn: int, enough: int) -> bool:
     """Tell whether a vehicle's further places needn't be tried; `enough` are if any is legal."""
     if any(not draft.timed.judged.violations for draft in drafts):
         return turn >= enough
@@ -214,7 +214,7 @@ def _windows_of(bench: Bench, node: int, until: float) -> tuple[list[Alternative
         guesses = sorted([guess for some in bench.guesses(problem, screened).values()
                           for guess in some], key=lambda guess: guess.rank)
         is_complete &= time.perf_counter() < screened
-        drafts: list[Draft] = []
+        drafts: list[Drafted] = []
         for turn, guess in enumerate(guesses[:ALL_TRIES]):
             if time.perf_counter() >= until:
                 return found, False

@@ -183,7 +183,7 @@ class Bench:
             decision = replace(decision, trips=with_ends(kind, decision.trips))
         return index, decision
 
-    def draft(self, place: Place, problem: Problem | None = None) -> "Draft":
+    def draft(self, place: Place, problem: Problem | None = None) -> "Drafted":
         """Return the route with the customer at a place; `problem` as in `finish`."""
         problem = problem or self.problem
         index, decision = self.decide(place, problem)
@@ -197,9 +197,9 @@ class Bench:
                     replace(trip, awaited=(*trip.awaited, Awaited(node, until)))
                     for trip in decision.trips]))
         timed = self._best(problem, [decision], index)
-        return Draft(place, index, timed, timed.judged.cost.total - before)
+        return Drafted(place, index, timed, timed.judged.cost.total - before)
 
-    def finish(self, draft: "Draft", problem: Problem | None = None,
+    def finish(self, draft: "Drafted", problem: Problem | None = None,
                judged: Mapping[int, JudgedRoute] | None = None) -> Trial:
         """Judge the plan with a route.
 
@@ -224,7 +224,7 @@ class Bench:
 
 
 @dataclass(frozen=True)
-class Draft:
+class Drafted:
     """A customer at a place, the rest of the plan not being looked at."""
 
     place: Place

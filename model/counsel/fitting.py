@@ -11,8 +11,8 @@ from dataclasses import dataclass, replace
 from itertools import chain, takewhile
 
 from model.counsel.alternatives import best_of, try_places
-from model.counsel.bench import Bench, Draft, Trial
-from model.counsel.group_moves import Unit, companions_to, move_all, not_with
+from model.counsel.bench import Bench, Drafted, Trial
+from model.counsel.group_moves import MovedUnit, companions_to, move_all, not_with
 from model.counsel.screening import share_over
 from model.judge.past import Vehicle
 from model.judge.past_rules import PAST_RULES
@@ -48,7 +48,7 @@ class Fit:
 
     bench: Bench  # by which it was tried: the customer's at that place of his
     trial: Trial
-    companions: tuple[Unit, ...] = ()
+    companions: tuple[MovedUnit, ...] = ()
 
     @property
     def rank(self) -> tuple[int, float]:
@@ -132,7 +132,7 @@ def _alone(bench: Bench, count: int, until: float,
     drafts = [draft for some in by_group.values() for draft in some]
     places = _best(bench, sorted(drafts, key=lambda draft: draft.rank), count, spot, until)
     chosen = {trial.place.vehicle for trial in places if trial.place is not None}
-    vehicles: dict[Vehicle, list[Draft]] = {}
+    vehicles: dict[Vehicle, list[Drafted]] = {}
     for draft in drafts:
         vehicles.setdefault(draft.place.vehicle, []).append(draft)
     some = takewhile(lambda _: time.perf_counter() < until,
@@ -161,7 +161,7 @@ def new_violations(bench: Bench, trial: Trial) -> list[Violation]:
             if (each.code, each.message) not in before]
 
 
-def _best(bench: Bench, drafts: Iterable[Draft], count: int,
+def _best(bench: Bench, drafts: Iterable[Drafted], count: int,
           spot_of: Callable[[Place], tuple[object, ...]], until: float) -> Sequence[Trial]:
     """Return the plans with the first of some drafts, the best first; others if none is allowed.
 

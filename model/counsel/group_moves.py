@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from itertools import product
 from typing import NamedTuple
 
-from model.counsel.bench import Bench, Draft, Trial
+from model.counsel.bench import Bench, Drafted, Trial
 from model.judge.check import JudgedRoute
 from model.judge.past import Vehicle
 from model.judge.places import find_place, halts
@@ -24,7 +24,7 @@ EFFORTS = Effort(3, 1), Effort(16, 12)
 """All vehicles are tried with the first, then with the next while there is time."""
 
 
-class Unit(NamedTuple):
+class MovedUnit(NamedTuple):
     """A customer, or all ends of a shipment, which move as one."""
 
     node: int
@@ -44,7 +44,7 @@ class Way:
     judged: Mapping[int, JudgedRoute]
 
 
-def companions_of(bench: Bench) -> tuple[Unit, ...]:
+def companions_of(bench: Bench) -> tuple[MovedUnit, ...]:
     """Return with whom a customer or shipment has to move to another vehicle, of those served.
 
     Nobody goes along with one end of a shipment, which the other binds, nor where one of them is
@@ -55,7 +55,7 @@ def companions_of(bench: Bench) -> tuple[Unit, ...]:
     return () if _begun(bench) & moved else found
 
 
-def companions_to(bench: Bench) -> tuple[Unit, ...]:
+def companions_to(bench: Bench) -> tuple[MovedUnit, ...]:
     """Return the same of those left out, too; but for whoever is on a trip that has begun."""
     problem, served, begun = bench.problem, _served(bench), _begun(bench)
     places = problem.all_places(served)
@@ -65,7 +65,8 @@ def companions_to(bench: Bench) -> tuple[Unit, ...]:
                   if begun.isdisjoint((*bench.nodes, *unit.nodes))])
 
 
-def not_with(bench: Bench, companions: tuple[Unit, ...], vehicle: Vehicle) -> tuple[Unit, ...]:
+def not_with(bench: Bench, companions: tuple[MovedUnit, ...],
+             vehicle: Vehicle) -> tuple[MovedUnit, ...]:
     """Return those whom a vehicle doesn't serve."""
     own = [find_place(bench.plan.solution, unit.node) for unit in companions]
     return tuple([unit for unit, found in zip(companions, own, strict=True)
@@ -84,25 +85,25 @@ def _begun(bench: Bench) -> set[int]:
             for node in trip.aboard | trip.served}
 
 
-def _bound_to(bench: Bench, among: Iterable[int]) -> tuple[Unit, ...]:
+def _bound_to(bench: Bench, among: Iterable[int]) -> tuple[MovedUnit, ...]:
     """Return who of some nodes has to be served by the vehicle that serves a customer."""
     problem, known = bench.problem, [*among]
     if not problem.keeps_together or (bench.shipment is None and bench.node in problem.shipment_at):
         return ()
-    found, asked = dict[int, Unit](), [*bench.nodes]
+    found, asked = dict[int, MovedUnit](), [*bench.nodes]
     for node in asked:
         bound = {other for relation in problem.relations
                  if relation.keeps_together and node in relation.nodes for other in relation.nodes}
         for other in known:
             if other in bound and other not in bench.nodes and problem.unit_of(other) not in found:
                 shipment = problem.shipment_at.get(other)
-                unit = Unit(problem.unit_of(other), shipment)
+                unit = MovedUnit(problem.unit_of(other), shipment)
                 found[unit.node] = unit
                 asked += unit.nodes
     return tuple(found.values())
 
 
-def move_all(bench: Bench, along: Mapping[Vehicle, tuple[Unit, ...]], until: float
+def move_all(bench: Bench, along: Mapping[Vehicle, tuple[MovedUnit, ...]], until: float
              ) -> tuple[dict[Vehicle, Trial], bool]:
     """Return what is found by an instant if each vehicle serves a customer and who goes along.
 
@@ -119,7 +120,7 @@ def move_all(bench: Bench, along: Mapping[Vehicle, tuple[Unit, ...]], until: flo
     return best, True
 
 
-def _move_together(bench: Bench, companions: tuple[Unit, ...], left_out: Way, vehicle: Vehicle,
+def _move_together(bench: Bench, companions: tuple[MovedUnit, ...], left_out: Way, vehicle: Vehicle,
                    effort: Effort, until: float) -> Trial | None:
     """Return a plan in which a vehicle serves a customer with all who are bound to go with him.
 
@@ -127,8 +128,8 @@ def _move_together(bench: Bench, companions: tuple[Unit, ...], left_out: Way, ve
     instant, on `time.perf_counter`, or the vehicle has no places.
     """
     ways = [left_out]
-    for unit in (Unit(bench.node, bench.shipment), *companions):
-        drafts: list[tuple[tuple[int, float], Bench, Draft]] = []
+    for unit in (MovedUnit(bench.node, bench.shipment), *companions):
+        drafts: list[tuple[tuple[int, float], Bench, Drafted]] = []
         for way in ways:
             own = Bench(bench.problem, way.trial.solution, unit.node, bench.setting, way.judged,
                         unit.shipment)
@@ -143,7 +144,7 @@ def _move_together(bench: Bench, companions: tuple[Unit, ...], left_out: Way, ve
     return min([way.trial for way in ways], key=lambda trial: trial.rank, default=None)
 
 
-def _without(bench: Bench, companions: tuple[Unit, ...]) -> Way:
+def _without(bench: Bench, companions: tuple[MovedUnit, ...]) -> Way:
     """Return the plan that leaves all of them out."""
     trial, judged = bench.left_out, bench.judged
     for unit in companions:
@@ -152,7 +153,7 @@ def _without(bench: Bench, companions: tuple[Unit, ...]) -> Way:
     return Way(trial, judged)
 
 
-def _drafts(bench: Bench, vehicle: Vehicle, tries: int, until: float) -> Iterator[Draft]:
+def _drafts(bench: Bench, vehicle: Vehicle, tries: int, until: float) -> Iterator[Drafted]:
     """Yield routes of a vehicle with a customer or shipment at its likeliest places."""
     guesses = [guess for some in bench.guesses(until=until, only=vehicle).values()
                for guess in some]

@@ -9,7 +9,7 @@ from itertools import pairwise, product
 from typing import NamedTuple
 
 from model.judge.breaks import ON_A_LEG, BreakDecision, is_due
-from model.judge.courses import Course, Leg
+from model.judge.courses import Leg, RouteCourse
 from model.judge.instants import ANY, NONE, Begins, Instant, fixed
 from model.judge.metrics import allowed_overtime, overtime
 from model.problem import MS_PER_HOUR, UNLIMITED, Break
@@ -99,7 +99,7 @@ class _Way(NamedTuple):
         return found
 
 
-def best_breaks(course: Course, stated: Mapping[int, tuple[int, int]], likely: int,
+def best_breaks(course: RouteCourse, stated: Mapping[int, tuple[int, int]], likely: int,
                 most: int) -> list[TakenBreaks]:
     """Return the best ways to take breaks, at most so many, the best first.
 
@@ -127,7 +127,7 @@ def best_breaks(course: Course, stated: Mapping[int, tuple[int, int]], likely: i
     return [*ways.values()][:most]
 
 
-def _least_cost(course: Course) -> float:
+def _least_cost(course: RouteCourse) -> float:
     """Return what a route costs at least."""
     duration = sum([leg.duration + leg.setup + leg.service for leg in course.legs])
     return duration * course.kind.cost_per_hour / MS_PER_HOUR
@@ -136,7 +136,7 @@ def _least_cost(course: Course) -> float:
 class _Search:
     """Looks for ways to take breaks on a course."""
 
-    def __init__(self, course: Course, stated: Mapping[int, tuple[int, int]],
+    def __init__(self, course: RouteCourse, stated: Mapping[int, tuple[int, int]],
                  is_lenient: bool, limit: float = UNBOUNDED) -> None:
         self._course, self._kind, self._stated = course, course.kind, stated
         self._limit = limit + TOLERANCE  # of costs

@@ -41,7 +41,7 @@ class Leg(NamedTuple):
     stop: int | None = None  # index of the stop before it; None: no break is taken there
 
 
-class Course(NamedTuple):
+class RouteCourse(NamedTuple):
     """The course of a route behind the trips that are known."""
 
     kind: VehicleType
@@ -53,7 +53,7 @@ class Course(NamedTuple):
     taken: int  # breaks that are known, as bits
 
 
-def course_of(problem: Problem, decision: RouteDecision, route: Route, known: int) -> Course:
+def course_of(problem: Problem, decision: RouteDecision, route: Route, known: int) -> RouteCourse:
     """Return the course of a route whose first trips are known.
 
     `route` has times, begun as soon as it may. If the first trip states its start, it begins then.
@@ -75,7 +75,7 @@ def course_of(problem: Problem, decision: RouteDecision, route: Route, known: in
         legs += _legs(problem, kind, decision.trips[number], trips[number], number)
     taken = sum({1 << each.number for trip in trips[:known] for each in trip.breaks
                  if each.number != REST})
-    return Course(kind, begin, works_since, time, begins, tuple(_counted(legs)), taken)
+    return RouteCourse(kind, begin, works_since, time, begins, tuple(_counted(legs)), taken)
 
 
 def _counted(legs: Iterable[Leg]) -> Iterator[Leg]:

@@ -17,14 +17,15 @@ Whose = Literal["customer", "shipment", "vehicle_type", "flyer", "drones"]
 
 
 @dataclass(frozen=True)
-class Step:
+class CountedIn:
     """What people count a limit in, and how many of the problem's own that is."""
 
     name: Literal["minute", "km", "unit"]
     size: int
 
 
-MINUTE, KM, ONE = Step("minute", MS_PER_HOUR // 60), Step("km", MM_PER_KM), Step("unit", 1)
+MINUTE, KM = CountedIn("minute", MS_PER_HOUR // 60), CountedIn("km", MM_PER_KM)
+ONE = CountedIn("unit", 1)
 
 
 @dataclass(frozen=True)
@@ -33,7 +34,7 @@ class StatedLimit:
 
     whose: Whose
     path: str  # where requests have it, from its owner on
-    step: Step
+    step: CountedIn
     words: str = ""  # what suffices, by `quantity`, `of` whom, and `s` of several; "": not offered
     field: str = ""  # where problems have it, if it is named otherwise there
     is_total: bool = False  # what suffices is told as a whole, not how much more it is
