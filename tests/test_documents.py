@@ -64,6 +64,15 @@ def test_links_of_pages_lead_somewhere() -> None:
     assert {page.name: broken for page in pages if (broken := broken_links(page))} == {}
 
 
+def test_pages_show_each_picture_and_table_beside_them() -> None:
+    """Commands make the rest again, and leave it in `runs/`."""
+    docs = ROOT / "docs"
+    shown = {(page.parent / link).resolve() for page in (*ROOT.glob("*.md"), *docs.rglob("*.md"))
+             for link in LINK.findall(page.read_text("utf-8"))}
+    beside = {path.resolve() for path in docs.rglob("*.*") if path.suffix not in (".md", ".css")}
+    assert sorted(path.name for path in beside - shown) == []
+
+
 def test_links_that_lead_nowhere_are_found(tmp_path: Path) -> None:
     page = tmp_path / "page.md"
     page.write_text("# What it's for\n[a](page.md#what-its-for) [b](#what) [c](other.md)")
