@@ -203,7 +203,7 @@ def _names(of: Changing) -> set[str]:
     return {left_out.id}
 
 
-def _unrelated(of: Changing, _: Change) -> Found:
+def unrelated(of: Changing) -> Found:
     """Return that relations bind somebody no longer; of one alone nothing is left."""
     names, unit = _names(of), {name: each.id for each in of.request.shipments
                                for name, _ in each.named_ends()}
@@ -286,7 +286,7 @@ CHANGES: dict[str, Callable[[Changing, Change], Found]] = {
         change.quantity / 1000),
     "detour": lambda of, change: [((*of.subject, "max_detour"), {"to": change.quantity / 1000})],
     "lag": _lags,
-    "relations": _unrelated,
+    "relations": lambda of, _: unrelated(of),
     "wind": lambda of, change: [((*of.flyer(change.of), "max_wind_kmh"), {"to": None})],
     "battery": lambda of, change: of.more((*of.flyer(change.of), "energy", "battery_wh"),
                                           change.quantity / 10),

@@ -6,6 +6,7 @@ from app.plans.replies import (
     Data, cost_reply, one_per_type, place_reply, reason_reply, vehicle_name,
 )
 from app.plans.remedies import Remedies
+from app.plans.steps import Steps
 from app.plans.task import telling
 from app.requests.conversion.units import money, whole
 from model.counsel.alternatives import Alternative, halt_of
@@ -24,7 +25,7 @@ from model.solution import Cost, Solution, Stop, Visit
 
 
 def customer_reply(bench: Bench, alternatives: Iterable[Alternative], binding: Iterable[Binding],
-                   reasons: Iterable[Reason], remedies: Remedies) -> Data:
+                   reasons: Iterable[Reason], remedies: Remedies, steps: Steps) -> Data:
     """Return what is said of one customer or shipment."""
     problem = bench.problem
     return {
@@ -32,7 +33,7 @@ def customer_reply(bench: Bench, alternatives: Iterable[Alternative], binding: I
         "cost": cost_reply(bench.plan.evaluation.cost),
         "here": here_reply(bench),
         "alternatives": [_alternative(bench, each) for each in alternatives],
-        "binding": [_binding(bench, each) for each in binding],
+        "binding": [_binding(bench, each, steps) for each in binding],
         "reasons": [reason_reply(problem, bench.node, reason, remedies)
                     for reason in one_per_type(problem, reasons)],
     }
@@ -157,15 +158,17 @@ def _name(problem: Problem, node: int) -> str:
     return problem.customer_at(node).id
 
 
-def _binding(bench: Bench, each: Binding) -> Data:
+def _binding(bench: Bench, each: Binding, steps: Steps) -> Data:
     limit, problem = each.limit, bench.problem
+    at = ("" if limit.whose == "request" else _name_of_limited(bench, limit)
+          if limit.kind is None else problem.vehicle_types[limit.kind].type_id)
     return {
         "rule": limit.field,
-        "at": ("" if limit.whose == "request" else _name_of_limited(bench, limit)
-               if limit.kind is None else problem.vehicle_types[limit.kind].type_id),
+        "at": at,
         "slack": limit.slack,
         "unit": limit.unit,
         "saves_per_unit": each.saves_per_unit,
+        "changes": steps(limit, at, bench.shipment is not None and at == bench.shipment.id),
     }
 
 

@@ -89,12 +89,13 @@ def answer_explain(body: ReceivedBody, bounds: Bounds, planner: Planner,
     question = _question(Subject(request.customer, request.shipment), request.drones,
                          request.options, body.received_at, request.idle_drones)
     reply = _Explainer(task, solution, planner, should_stop).answer(question)
-    reply["reasons"] = [_of_problem(reason) for reason in reply["reasons"]]
+    for name in ("reasons", "binding"):
+        reply[name] = [_of_problem(each) for each in reply[name]]
     return to_json(reply)
 
 
 def _of_problem(told: Data) -> Data:
-    """Return a reason, or a remedy, whose changes are of the problem beside the plan."""
+    """Return a reason, a remedy or a limit whose changes are of the problem beside the plan."""
     return told | {
         name: [change | {"path": change["path"].replace("$", f"$.{PROBLEM}", 1)}
                for change in told[name]]
@@ -263,7 +264,7 @@ class _Explainer:
         reasons = (() if bench.found is not None else self._task.reasons(
             self._solution, bench.node, time.perf_counter() + REASONS_SECONDS))
         return (customer_reply(bench, found.alternatives, binding, reasons,
-                               self._task.remedy),
+                               self._task.remedy, self._task.step),
                 found.is_complete and in_time)
 
     def _of_drones(self, question: PlanQuestion) -> tuple[Data, bool]:

@@ -12,6 +12,7 @@ from pydantic_core import to_json
 from app.maps.roads.roads import NO_ROADS, Roads
 from app.plans.changes import Changing
 from app.plans.remedies import remedy_reply
+from app.plans.steps import step
 from app.plans.carried import Info, carry, info_of, names_left_out
 from app.plans.closures import Closures
 from app.plans.far_plans import FarPlans
@@ -42,6 +43,7 @@ from app.schemas.request import PlanRequest, ReplanInput
 from app.schemas.response import PlanReply
 from model.counsel.bench import Setting
 from model.judge.check import Evaluation, JudgedRoute, check
+from model.counsel.binding import Limit
 from model.counsel.explain import Reason, explain
 from model.counsel.more_trips import with_another_trip
 from model.judge.past import Vehicle
@@ -163,6 +165,11 @@ class Task:
         kind = self.problem.vehicle_types[reason.vehicle_type].type_id
         changing = Changing.of(self.places.placed.request, kind, name, shipment is not None)
         return remedy_reply(remedy, changing)
+
+    def step(self, limit: Limit, at: str, is_shipment: bool) -> list[Data]:
+        """Return what a unit more of a limit changes of the request; `at` is whose it is."""
+        return ([] if self.places is None
+                else step(self.places.placed.request, limit, at, is_shipment))
 
     def reply(self, options: PlanOptions, result: PlanResult) -> Data:
         """Return the reply to a plan, as `plan_reply` does, with reasons while there is time."""

@@ -8,7 +8,7 @@ from app.schemas.check import PlannedProblem
 from app.schemas.limits import MAX_TIME_LIMIT
 from app.schemas.hindrances import StormReply, ZoneReply
 from app.schemas.plan import ALTERNATIVE_TEXT, PART_TEXT
-from app.schemas.reasons import ReasonReply
+from app.schemas.reasons import ChangeReply, ReasonReply
 from app.schemas.response import WARNINGS_TEXT, CostReply, WarningReply
 from app.schemas.shipment import EndKind
 from app.schemas.times import InstantReply, WordsReply
@@ -139,6 +139,9 @@ class BindingReply(_Reply):
         description="What the plan would cost less with one unit more, or without the `rule`, the "
         f"customer being served where that is cheapest of the places tried. {OTHERS_STAY} "
         "0: nothing.")
+    changes: list[ChangeReply] = Field(
+        description="A unit more, or no rule, as changes of the request; none where it has no "
+        "place for them.")
 
 
 class SearchedReply(_Reply):

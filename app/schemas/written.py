@@ -93,7 +93,7 @@ def length_like(text: str, seconds: float) -> str:
     if text.startswith("P"):
         return f"PT{int(minutes)}M" + (f"{rest:g}S" if rest else "")
     hours, minutes = divmod(int(minutes), 60)
-    return f"{hours}:{minutes:02d}" + (f":{rest:06.3f}" if rest else "")
+    return f"{hours}:{minutes:02d}" + (f":{rest:06.3f}".rstrip("0").rstrip(".") if rest else "")
 
 
 _NIGHT = "Before all shifts, in one that lasts until then on the next day: then."
