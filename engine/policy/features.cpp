@@ -24,8 +24,6 @@ constexpr double mm_per_km = 1'000'000;
 constexpr double furthest = 5;  // what ways and durations are clipped to, by the problem's unit
 constexpr Int most_trips = 4;   // trips left beyond these are not told apart
 
-float to_float(double value) { return static_cast<float>(value); }
-
 double quotient(Int part, Int whole) {
     return static_cast<double>(part) / static_cast<double>(whole);
 }

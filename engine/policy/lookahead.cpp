@@ -13,8 +13,6 @@ namespace {
 constexpr Int num_company = 3;    // unserved neighbours that are looked at for how near they are
 constexpr Int num_prospects = 8;  // those that are timed
 
-float to_float(double value) { return static_cast<float>(value); }
-
 // Clip a difference to three times `scale`, -1..1; 1 where there is nothing to compare.
 double excess(Int value, double scale) {
     if (value >= unlimited) return 1;

@@ -16,8 +16,6 @@
 namespace tandem {
 namespace {
 
-float to_float(double value) { return static_cast<float>(value); }
-
 // How little a limit leaves: 0 where there is none, 1 where nothing is left.
 double hurry(Int limit, Int used, double scale) { return 1.0 - slack(limit, used, scale); }
 

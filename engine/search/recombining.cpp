@@ -21,7 +21,7 @@ namespace tandem {
 
 namespace {
 
-constexpr double rounding = 1e-9;  // costs that differ by less are the same
+constexpr double least_gain = 1e-9;  // costs that differ by less are the same
 
 // Routes have a number each, by slot, and behind them each node left out, as if it were a route;
 // behind those of the best plan come those of the plan as it is. A part is known by the least
@@ -180,7 +180,7 @@ void Recombination::run() {
     count(searcher_.now, numbers_, after, needed);
     const OwnRows<bool, 1> better({numbers_});
     for (Int part = 0; part < numbers_; ++part)
-        better[part] = before[part] - after[part] > rounding;
+        better[part] = before[part] - after[part] > least_gain;
     if (is_too_much(better, needed)) {
         for (Int part = 0; part < numbers_; ++part) {
             const View<Int, 1> more = needed[part];

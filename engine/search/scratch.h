@@ -132,6 +132,8 @@ struct PartScratch {
     Row<PlannedOperation> planned;  // in order
 };
 
+constexpr double same_share = 1e-12;  // costs that differ by a smaller share are the same
+
 constexpr Int most_changing = 6;  // trips changed at a time by small moves
 constexpr Int more_places = 4;    // in a trip, or while it is changed, than customers
 

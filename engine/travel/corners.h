@@ -5,6 +5,11 @@
 
 namespace tandem {
 
+// Of grids in which corners and edges are looked up.
+constexpr Int most_cells = 2048;    // on each side
+constexpr double margin = 1e-6;     // share of a cell by which what is looked at is widened
+constexpr double narrowest = 1e-3;  // metres: cells are no smaller
+
 struct Point2 {
     double x, y;
 };

@@ -8,9 +8,6 @@
 namespace tandem {
 namespace {
 
-constexpr Int most_cells = 2048;      // on each side of the grid
-constexpr double margin = 1e-6;       // share of a cell by which what is looked at is widened
-constexpr double narrowest = 1e-3;    // metres: cells are no smaller
 constexpr double nearest = 1e-3;      // metres north within which nothing hides what is behind
 constexpr double rounding = 1e-9;     // radians by which wedges are widened
 constexpr std::size_t most_open = 4;  // ranges of slopes: more take longer than they save

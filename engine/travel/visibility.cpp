@@ -15,11 +15,8 @@
 namespace tandem {
 namespace {
 
-constexpr Int most_cells = 2048;  // on each side of the grid
-constexpr double margin = 1e-6;   // share of a cell by which what is looked at is widened
 constexpr Int few_edges = 12;     // with no more, every line of sight is compared with all
 constexpr Int nothing = -1;
-constexpr double narrowest = 1e-3;  // metres: cells are no smaller
 
 // Whether the segment from the origin to a point meets an edge.
 bool meets(const Point2& to, const Edge& edge) {

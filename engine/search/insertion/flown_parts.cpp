@@ -14,12 +14,12 @@
 namespace tandem {
 namespace {
 
-constexpr Int most_places = 24;    // of an end on a trip
+constexpr Int most_end_places = 24;    // of an end on a trip
 constexpr Int most_combined = 64;  // of the cheapest of each pickup with one place of the delivery
-constexpr Int most_priced = 64;    // of all combinations
+constexpr Int most_combinations = 64;    // of all combinations
 constexpr Int most_ends = most_pickups + 1;
 
-using EndPlaces = Cheapest<EndPlace, most_places>;
+using PartPlaces = Cheapest<EndPlace, most_end_places>;
 
 // Which of the places of each pickup in turn is chosen, then which of the delivery.
 using Choice = std::array<std::uint8_t, most_ends>;
@@ -44,7 +44,7 @@ public:
             flies = add_flown(end_node(end), places(end)) || flies;
             add_driven(end_node(end), places(end));
         }
-        EndPlaces& deliveries = places(pickups_.count);
+        PartPlaces& deliveries = places(pickups_.count);
         for (Int end = 0; end < pickups_.count; ++end) {
             for_each_flight_on(end_node(end), delivery_, [&](const EndPlace&, EndPlace delivery) {
                 delivery.from = end;
@@ -67,7 +67,7 @@ private:
         return end == pickups_.count ? delivery_ : pickups_.node[std::size_t(end)];
     }
 
-    EndPlaces& places(Int end) { return places_[std::size_t(end)]; }
+    PartPlaces& places(Int end) { return places_[std::size_t(end)]; }
 
     const EndPlace& place_of(Int end, const Choice& choice) {
         return places(end).items()[choice[std::size_t(end)]];
@@ -236,8 +236,8 @@ private:
 
     const Pickups pickups_;
     const Int delivery_;
-    std::array<EndPlaces, std::size_t(most_ends)> places_;
-    Cheapest<Combination, most_priced> combined_;
+    std::array<PartPlaces, std::size_t(most_ends)> places_;
+    Cheapest<Combination, most_combinations> combined_;
     std::array<FlownPickup, most_pickups> flights_{};
     Int taken_ = 0;  // of these
 };

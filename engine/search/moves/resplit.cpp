@@ -31,8 +31,6 @@ constexpr double cut_elsewhere_share = 0.5;  // how often nothing but the depot 
 
 constexpr Int orders_tried = 9;  // of a part, one after another
 
-constexpr double same_share = 1e-12;  // costs that differ by a smaller share are the same
-
 template <class T>
 View<T, 1> behind(View<T, 1> values, Int begin) {
     return values.part(begin, values.size() - begin);

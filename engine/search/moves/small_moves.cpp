@@ -19,7 +19,7 @@ constexpr Int moves_each = 15;         // for each customer of the trips
 constexpr Int most_moves = 6000;       // however many there are
 constexpr Int enough_customers = 100;  // from which on no trip more is changed at a time
 
-constexpr Int near_places = 10;  // among how many nearest neighbours of a customer one is drawn
+constexpr Int near_neighbours = 10;  // among how many nearest neighbours of a customer one is drawn
 
 // How often a customer goes elsewhere, trades places with another, stops are reversed, or some go
 // elsewhere together; else truck and drone meet elsewhere.
@@ -30,8 +30,6 @@ constexpr double part_share = 0.15;  // how often an operation is parted where a
 constexpr Int longest_segment = 5;   // stops that go elsewhere together
 constexpr Int longest_reversed = 50;
 constexpr Int longest_flown = 4;  // legs of the truck while the drone flies, where it begins to
-
-constexpr double same_share = 1e-12;  // costs that differ by a smaller share are the same
 
 }  // namespace
 
@@ -364,7 +362,7 @@ void SmallMoves::keep_if_best() {
 // Return a near neighbour of a customer whose trip is changed, too; `nowhere` if none was drawn.
 Int SmallMoves::neighbour(Int node) const {
     const View<const std::int32_t, 1> near = data_.near[node];
-    const Int other = near[random(std::min(near_places, near.size()))];
+    const Int other = near[random(std::min(near_neighbours, near.size()))];
     return other < 0 || served(other).trip == nobody ? nowhere : other;
 }
 
