@@ -8,7 +8,6 @@
 #include "rules/breaks.h"
 #include "rules/driving.h"
 #include "rules/hub.h"
-#include "rules/shift.h"
 #include "search/route/lags.h"
 #include "search/route/layout.h"
 
@@ -46,7 +45,21 @@ inline Int unpaid_on(const VehicleType& type, View<const Stop, 1> stops) {
 }
 
 // Tell whether a timed route lacks a break.
-bool lacks_break(const VehicleType& type, const Route& route, View<const Stop, 1> stops);
+inline bool lacks_break(const VehicleType& type, const Route& route, View<const Stop, 1> stops) {
+    const Int begin = begin_of(type, stops);
+    Int taken = 0;
+    for (const Stop& stop : stops.first(route.length)) {
+        const Rests rests(stop.rests);
+        for (Int index = 0; index < rests.count(); ++index) taken |= Int{1} << rests.number(index);
+    }
+    for (Int number = 0; number < num_breaks(type); ++number) {
+        if (!is_among(taken, number) && break_of(type, number, begin).latest < route.end &&
+            !over_before(type, number, begin)) {
+            return true;
+        }
+    }
+    return false;
+}
 
 // Return the first instant later than `begin` at which a route had better begin, perhaps: once a
 // break is over, or the speed changes. `far`: there is none.
@@ -69,18 +82,10 @@ inline bool has_breaks_alone(const ProblemData& data, const Route& route) {
 // Tell whether breaks of a route are chosen so: by `TimeSegment`, or where speeds change for each
 // of some instants at which it may begin.
 //
-// Not where drones fly, drivers rest by rules, or other vehicles are waited for.
+// Not where drones fly, drivers rest by rules, or other vehicles are waited for: there breaks are
+// placed as rests are.
 inline bool joins_breaks(const ProblemData& data, const Route& route) {
     return has_breaks_alone(data, route) && route.sorties == 0;
 }
-
-// Write between which stops of a route breaks are taken, so that it ends as soon as possible. In
-// place; false if none of that can be.
-//
-// By dynamic programming over blocks and breaks taken: of two ways to have taken as many, that by
-// which the truck is there sooner is never worse. While drones fly, each break is placed where it
-// then delays least.
-bool place_breaks(const ProblemData& data, const Route& route, View<Stop, 1> stops,
-                  View<Sortie, 1> sorties);
 
 }  // namespace tandem

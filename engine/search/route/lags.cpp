@@ -137,7 +137,10 @@ Int excess_within(const ProblemData& data, View<const Stop, 1> stops, View<const
     const auto starts = starts_on(data, stops, sorties, {0, part.behind});
     Int most = 0;
     for_each_served(data, stops, sorties, part, [&](Int node, Int start) {
-        most = std::max(most, excess_of_lags(lags_of(data.lag, node), start, starts));
+        const View<const Lag, 1> lags = lags_of(data.lag, node);
+        // A drone that comes too soon doesn't wait.
+        most = std::max(
+            {most, excess_of_lags(lags, start, starts), soonest_behind(lags, starts) - start});
     });
     return most;
 }

@@ -51,8 +51,8 @@ bool keeps_all_lags(const ProblemData& data, const Route& route, View<const Stop
 Int most_lag_excess(const ProblemData& data, const Route& route, View<const Stop, 1> stops,
                     const Trip& trip, View<const Sortie, 1> sorties);
 
-// Return by how much somebody of a part is served too long behind another, there or before it; 0 if
-// nobody is.
+// Return by how much somebody of a part is served too long behind another, there or before it, or
+// by a drone too soon; 0 if nobody is.
 Int excess_within(const ProblemData& data, View<const Stop, 1> stops, View<const Sortie, 1> sorties,
                   Part part);
 

@@ -32,6 +32,7 @@ struct RestLabel {
     std::int32_t count;   // of rests
     std::int32_t on_leg;  // of these, on the leg
     std::int32_t last;    // among those taken, -1 if there is none
+    std::int32_t timed;   // which timing of the block has the same rests there, -1 if none has
 };
 
 // Tell whether a driver may have a rest more on the leg.
@@ -116,6 +117,7 @@ public:
                           static_cast<std::int8_t>(number), static_cast<std::int8_t>(place)});
         ++label.count;
         ++label.on_leg;
+        label.timed = -1;
     }
 
     // Call `take` for the rests up to one of them that are behind stop `first` or later, in order.

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <cstdint>
+#include <vector>
 
 #include "rules/leg.h"
 #include "search/route/best_rests.h"
@@ -40,6 +42,18 @@ public:
 private:
     std::array<RestLabels, 2> row_;
     std::size_t there_ = 0;
+};
+
+// A block as timed with some rests.
+struct Timed {
+    Int d, c, lo, hi, dep;
+    bool done;  // no rule is broken
+};
+
+// When a stop within a block is left, `far` if never, the sum of the take-offs of drones that are
+// out then, and by how much somebody of the block so far is served too long behind another.
+struct Left {
+    Int time, airborne, excess;
 };
 
 class Placing {
@@ -120,8 +134,10 @@ private:
     // Returns what is ahead there.
     //
     // Who drives on while drones are out may rest on each leg: of all ways to have come to a stop
-    // those are followed that may be best.
+    // those are followed that may be best. Each is timed once for the rests that it has.
     Ahead fly(const RestLabel& reached, Int first, Int last, Ahead ahead) {
+        timed_.clear();
+        left_.clear();
         inside_.go_on();
         inside_.there().add(reached);
         for (Int q = first; q < last; ++q) {
@@ -129,40 +145,42 @@ private:
             const Way way = route_.way_from(q, ahead, true);
             ahead = way.ahead;
             for (RestLabel label : here) {
-                take_rests(label, first, last);
-                label.time = leave_inside(first, q, last, reached);
+                if (label.timed < 0) time_inside(label, first, last, reached);
+                const Left& left = left_of(label, q - first, last - first);
+                label.time = left.time;
                 if (label.time == far || !may_still_work(type_, label.driver, label.time)) continue;
-                label.airborne = takeoffs_of_flying(q);
+                label.airborne = left.airborne;
+                label.waited.excess = std::max(label.waited.excess, left.excess);
                 legs_.drive(label, way, inside_.there());
             }
         }
         const Way way = route_.way_from(last, ahead, false);
         for (RestLabel label : inside_.there()) {
-            take_rests(label, first, last);
-            if (leave_inside(first, last, last, reached) == far) continue;
+            if (label.timed < 0 || waits_.count()) time_inside(label, first, last, reached);
+            const Timed& timed = timed_[static_cast<std::size_t>(label.timed)];
+            if (!timed.done) continue;
             if (waits_.count()) waits_.pass({first, last + 1}, {sortie_, behind_}, label.waited);
             label.time = reached.time;
             label.cum = reached.cum;
             label.airborne = 0;
-            const Stop& stop = stops_[first];
-            if (stop.lo <= label.time && label.time <= stop.hi) leave(label, way, first);
+            label.timed = -1;
+            Stop& stop = stops_[first];
+            stop.d = timed.d;
+            stop.c = timed.c;
+            stop.dep = timed.dep;
+            if (timed.lo <= label.time && label.time <= timed.hi) leave(label, way, first);
         }
         route_.rest_nowhere(first, last);
         return way.ahead;
     }
 
-    // Let the legs of a block have the rests of a label.
-    void take_rests(const RestLabel& label, Int first, Int last) {
+    // Time a block that is reached so with the rests of a label, which then knows that.
+    void time_inside(RestLabel& label, Int first, Int last, const RestLabel& reached) {
         route_.rest_nowhere(first, last);
         taken_.for_each_from(first, label.last, [&](const TakenRest& rest) { route_.take(rest); });
-    }
-
-    // Return when a stop of a block is left that is reached so; `far` if never, or, at its
-    // last stop, if a rule is broken.
-    Int leave_inside(Int first, Int q, Int last, const RestLabel& reached) {
         if (waits_.count()) waits_.recall(reached.waited);
         for (Int s = sortie_; s < behind_; ++s) sorties_[s].state = sortie_waits;
-        for (Int p = first; p <= q; ++p) stops_[p].leave = far;
+        for (Int p = first; p <= last; ++p) stops_[p].leave = far;
         BlockSums sums;
         sums.time = reached.time;
         sums.oldest = sortie_;
@@ -170,7 +188,20 @@ private:
         sums.first_sortie = first_of_trip_;
         sums.driver = reached.driver;
         const bool done = time_block(route_.truck, stops_, sorties_, first, sums) == last;
-        return done || q < last ? stops_[q].leave : far;
+        const Stop& stop = stops_[first];
+        label.timed = static_cast<std::int32_t>(timed_.size());
+        timed_.push_back({stop.d, stop.c, stop.lo, stop.hi, stop.dep, done});
+        for (Int q = first; q < last; ++q) {
+            const Int excess =
+                waits_.count() ? excess_within(route_.truck.data, stops_, sorties_, {first, q + 1})
+                               : 0;
+            left_.push_back({stops_[q].leave, takeoffs_of_flying(q), excess});
+        }
+    }
+
+    // When a label leaves a stop of the block that is timed so.
+    const Left& left_of(const RestLabel& label, Int stop, Int stops) const {
+        return left_[static_cast<std::size_t>(label.timed * stops + stop)];
     }
 
     // Return the sum of the take-offs of drones that are out when a stop is left.
@@ -192,7 +223,9 @@ private:
     RestLegs legs_{route_, best_, taken_};
     TwoRows rows_;
     TwoRows inside_;  // likewise within a block
-    Int sortie_ = 0;  // the first not passed, and the first behind the block
+    std::vector<Timed> timed_;
+    std::vector<Left> left_;  // (timing, stop)
+    Int sortie_ = 0;          // the first not passed, and the first behind the block
     Int behind_ = 0;
     Int launched_ = 0;  // on the trip
     Int first_of_trip_ = 0;
@@ -227,7 +260,8 @@ bool place_rests(const ProblemData& data, const Route& route, View<Stop, 1> stop
     TakenRests taken;
     make_ready(resting.truck, resting.stops, resting.sorties);
     resting.note_latest();
-    const bool looks_at_all = route.sorties > 0 || lags_count(data);
+    const bool looks_at_all =
+        route.sorties > 0 || lags_count(data) || !has_driving_rules(resting.type);
     if (looks_at_all || !rest_late(resting, best, taken)) {
         Placing(resting, best, taken, looks_at_all ? few : RestLabels::all).run();
     }

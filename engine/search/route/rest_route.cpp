@@ -29,6 +29,7 @@ RestLabel RestRoute::beginning() const {
     RestLabel first{};
     first.depart = far;
     first.last = -1;
+    first.timed = -1;
     first.time = begin_of(type, stops);
     first.driver = driver_from(type, first.time);
     return first;
@@ -83,7 +84,7 @@ bool RestRoute::reach_alone(Int p, Int time) const {
 
 bool RestRoute::leave_block(RestLabel& label, Int first) const {
     const Stop& stop = stops[first];
-    label.depart = std::min(label.depart, stop.dep - label.cum);
+    if (!truck.resting) label.depart = std::min(label.depart, stop.dep - label.cum);
     // With breaks, `d` is none, and when it leaves at best is asked behind.
     label.cum = std::max(label.cum + stop.d, none);
     label.time = std::max(label.time + stop.d, stop.c);
@@ -93,7 +94,7 @@ bool RestRoute::leave_block(RestLabel& label, Int first) const {
 void RestRoute::arrive(RestLabel& label, const Way& way, const RestedLeg& leg, Int left) const {
     label.time = leg.time() + way.setup;
     if (!truck.resting) label.cum += label.time - left;
-    label.driver = leg.driver();
+    if (has_driving_rules(type)) label.driver = leg.driver();
     if (!limits_work(type)) label.driver.since = 0;
     label.on_leg = 0;
 }

@@ -78,8 +78,10 @@ bool drive_with_pauses(const ProblemData& data, Route& route, View<Stop, 1> stop
     route.driving = 0;
     const bool driven = drive_as_placed(data, route, stops, sorties);
     if (driven) {
-        const Int driving =
-            follows_driver(type) ? route.travel : driving_on(data, type, stops.first(route.length));
+        const Int driving = follows_driver(type) ? route.travel
+                            : has_driving_rules(type)
+                                ? driving_on(data, type, stops.first(route.length))
+                                : 0;
         const Int begin = counted_begin(type, begin_of(type, stops));
         if (!lacks_break(type, route, stops) && needs_no_rest(type, driving, route.end - begin)) {
             route.driving = driving;

@@ -1,4 +1,5 @@
-// Where those rest on a route whom rules ask to.
+// Where those rest on a route whom rules ask to, and where they have breaks that aren't chosen by
+// `break_choices`.
 #pragma once
 
 #include "rules/driving.h"
@@ -9,8 +10,8 @@ namespace tandem {
 // Tell whether a rest is taken on a timed route.
 bool any_rest(const VehicleType& type, const Route& route);
 
-// Write times as soon as possible, with the rests that rules ask for placed so that the route ends
-// as soon as possible. In place; false if a rule is broken.
+// Write times as soon as possible, with breaks, and the rests that rules ask for, placed so that
+// the route ends as soon as possible. In place; false if a rule is broken.
 //
 // Gaps between stops then hold rests. They are placed by dynamic programming along the route: of
 // two ways to have come somewhere, one is no worse if the truck is there as soon, with no more

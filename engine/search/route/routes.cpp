@@ -14,6 +14,7 @@
 #include "search/route/ends.h"
 #include "search/route/flown_trips.h"
 #include "search/route/lags.h"
+#include "search/route/least_cost.h"
 #include "search/route/rarer.h"
 #include "search/route/rest_placing.h"
 #include "search/route/resting.h"
@@ -154,19 +155,10 @@ bool load_trips(const ProblemData& data, Route& route, View<Stop, 1> stops, View
 bool drive_forward(const ProblemData& data, Route& route, View<Stop, 1> stops,
                    View<Sortie, 1> sorties) {
     const VehicleType& type = data.type[route.type];
-    if (has_driving_rules(type)) return drive_by_rules(data, route, stops, sorties);
-    if (!has_breaks(type)) return drive_as_placed(data, route, stops, sorties);
-    if (route.placed != breaks_by_end) {
-        return drive_as_placed(data, route, stops, sorties) &&
-               (route.placed == breaks_left_out || !lacks_break(type, route, stops));
-    }
-    clear_rests(type, stops.first(route.length));
-    const bool driven = drive_as_placed(data, route, stops, sorties);
-    if (driven && !lacks_break(type, route, stops)) return true;
-    // Whoever takes breaks is later everywhere, which helps drones alone.
-    if (!driven && route.sorties == 0) return false;
-    return place_breaks(data, route, stops, sorties) &&
-           drive_as_placed(data, route, stops, sorties) && !lacks_break(type, route, stops);
+    if (!may_rest(type)) return drive_as_placed(data, route, stops, sorties);
+    if (route.placed == breaks_by_end) return drive_by_rules(data, route, stops, sorties);
+    return drive_as_placed(data, route, stops, sorties) &&
+           (route.placed == breaks_left_out || !lacks_break(type, route, stops));
 }
 
 bool drive_as_placed(const ProblemData& data, Route& route, View<Stop, 1> stops,

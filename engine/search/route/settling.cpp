@@ -12,7 +12,9 @@
 #include "search/route/breaks.h"
 #include "search/route/freshness.h"
 #include "search/route/lags.h"
+#include "search/route/placed_breaks.h"
 #include "search/route/rarer.h"
+#include "search/route/rest_placing.h"
 #include "search/route/resting.h"
 #include "search/route/routes.h"
 
@@ -85,6 +87,22 @@ Int latest_by_stops(const ProblemData& data, const Route& route, View<Stop, 1> s
     return leave;
 }
 
+// Return by when the trip that begins at a stop has to begin for a route to end as soon as it does,
+// as far as its truck tells.
+Int latest_by_end(const ProblemData& data, const Route& route, View<const Stop, 1> stops,
+                  Int first) {
+    const VehicleType& type = data.type[route.type];
+    const NodeTable places = data.place.by_truck(type), own = data.place[0];
+    Int latest = route.end;
+    for (Int p = route.length - 1; p > first; --p) {
+        const Stop& stop = stops[p];
+        if (stop.kind == customer_stop) latest -= places[stop.node].service_duration();
+        if (has_window(stop)) latest = std::min(latest, own[stop.node].latest_allowed());
+        latest -= stops[p - 1].gap - resting_in_gap(type, stops[p - 1]);
+    }
+    return latest;
+}
+
 // Return the latest start of the trip that begins at stop `first` which costs nothing.
 //
 // If all is retimed, either by moving the whole trip within the windows that are met, or stop by
@@ -106,7 +124,7 @@ Int latest_hold(const ProblemData& data, const Route& route, View<Stop, 1> stops
     // Where drones fly from is left as it is by that; without a break on the way all may be later.
     const VehicleType& type = data.type[route.type];
     if (has_breaks(type) && route.sorties > 0 && !any_rest(type, route)) {
-        hold = std::max(hold, route.end);
+        hold = std::max(hold, latest_by_end(data, route, stops, first));
     }
     return hold;
 }
@@ -119,17 +137,30 @@ public:
         : found_(before), soonest_(soonest), failed_(latest), tried_(latest), by_end_(by_end) {}
 
     Int found() const { return found_; }
-    Int tried() const { return tried_; }
-    bool is_known() const { return by_end_ && failed_ - std::max(found_, soonest_) <= 1; }
+    bool is_latest() const { return found_ == failed_; }
 
-    // Note whether it may begin as was tried, or ends `late`, if that is known and all it breaks.
-    void note(bool may, Int late) {
+    // Try some at most. `late_by` tells by how much too late the route ends if the trip begins at
+    // an instant, at most 0 if it may; `far` if it breaks a rule. `is_over` tells when to end.
+    template <class LateBy, class IsOver>
+    void run(Int most, const LateBy& late_by, const IsOver& is_over) {
+        for (Int attempt = 0; attempt <= most && !is_known() && !is_over(); ++attempt) {
+            note(late_by(tried_));
+        }
+    }
+
+private:
+    bool is_known() const {
+        return is_latest() || (by_end_ && failed_ - std::max(found_, soonest_) <= 1);
+    }
+
+    void note(Int late) {
+        const bool may = late <= 0;
         (may ? found_ : failed_) = tried_;
         const Int least = std::max(found_, soonest_);
         if (by_end_ && may && is_exact_) {
             tried_ = found_ + 1;
             is_exact_ = false;
-        } else if (by_end_ && !may && late > 0 && tried_ - late > least) {
+        } else if (by_end_ && !may && tried_ - late > least) {
             // Mostly it ends by as much too late as it begins.
             tried_ -= late;
             is_exact_ = true;
@@ -139,32 +170,113 @@ public:
         }
     }
 
-private:
     Int found_, soonest_, failed_, tried_;
     bool by_end_;
     bool is_exact_ = false;
 };
 
-// Let a trip of a timed route whose driver is followed begin as late as `hold` at most, where it
-// ends no later. In place; false if a rule is broken.
-//
-// Later beginnings are tried with the rests that are placed, and that which is chosen with others.
-bool settle_followed(const ProblemData& data, Route& route, View<Stop, 1> stops, Stop& stop,
-                     View<Sortie, 1> sorties, Int hold) {
-    const Int end = route.end, before = stop.hold;
-    const Int soonest = std::max({stop.arrival, stop.release, stop.hold});
-    Int found = before, failed = hold, tried = hold;
-    for (Int attempt = 0; attempt <= halvings_with_breaks && found != hold; ++attempt) {
-        stop.hold = tried;
-        const bool done = drive_as_placed(data, route, stops, sorties) && route.end <= end;
-        (done ? found : failed) = tried;
-        tried = (std::max(found, soonest) + failed) >> 1;
+// Lets the trips of a timed route begin as late as costs nothing.
+class Settling {
+public:
+    Settling(const ProblemData& data, Route& route, View<Stop, 1> stops, View<const Trip, 1> trips,
+             View<Sortie, 1> sorties)
+        : data_(data),
+          route_(route),
+          stops_(stops.first(route.length)),
+          trips_(trips),
+          sorties_(sorties) {}
+
+    // False if a rule is broken.
+    bool run() {
+        Int again = may_lose_ ? settled_again : 0;
+        for (Int index = 0; index < route_.trips;) {
+            Stop& stop = stops_[trips_[index].first];
+            const Int before = stop.hold;
+            const Int latest = latest_hold(data_, route_, stops_, sorties_, trips_[index].first);
+            if (latest > soonest(stop) && !hold_back(stop, latest)) return false;
+            // Without some breaks it may begin even later.
+            if (stop.hold == before || again-- <= 0) ++index;
+        }
+        return true;
     }
-    stop.hold = found;
-    if (drive_forward(data, route, stops, sorties) && route.end <= end) return true;
-    stop.hold = before;
-    return drive_forward(data, route, stops, sorties);
-}
+
+private:
+    static Int soonest(const Stop& stop) {
+        return std::max({stop.arrival, stop.release, stop.hold});
+    }
+
+    // Let a trip begin as late as that at most.
+    //
+    // Later beginnings are tried with the breaks as they are placed, then with others.
+    bool hold_back(Stop& stop, Int latest) {
+        const Int end = route_.end, before = stop.hold, first = soonest(stop);
+        const auto is_over = [&] { return may_lose_ && data_.deadline.passed(); };
+        const auto late_by = [&](const auto drive) {
+            return [&, drive](Int begin) { return begun_at(stop, begin, drive, end); };
+        };
+        const auto anew = late_by(drive_forward);
+        const bool keeps = keeps_placed();
+        const bool restores = keeps && !has_driving_rules(type_);
+        const PlacedBreaks placed = restores ? PlacedBreaks(stops_, none) : PlacedBreaks();
+        const auto tried = late_by(keeps ? drive_as_placed : drive_forward);
+        LatestStart start(before, first, latest, by_end_);
+        // Beside drones it mostly may begin either much later or not at all.
+        if (!by_end_ || anew(first + 1) <= 0) {
+            start.run(most_, tried, is_over);
+            // Where it may be later, a break may be due no more if it is much later.
+            const Int next = std::max(start.found(), first) + 1;
+            const auto may_be_later = [&] {
+                if (anew(next) <= 0) return true;
+                const Int late = anew(latest);
+                return latest - late > next && anew(latest - late) <= 0;
+            };
+            if (keeps && !start.is_latest() && may_be_later()) {
+                start = LatestStart(start.found(), next - 1, latest, by_end_);
+                start.run(most_, anew, is_over);
+            }
+        }
+        if (restores && start.found() == before) {
+            stop.hold = before;
+            placed.write(stops_);
+            return drive_as_placed(data_, route_, stops_, sorties_);
+        }
+        if (stop.hold == start.found() || anew(start.found()) <= 0) return true;
+        // Drones in another order of arrival took longer, or breaks that are due.
+        return anew(before) < far;
+    }
+
+    // Let a trip begin at an instant. Returns how much later than `end` the route ends, at most 0
+    // if it may; `far` if it breaks a rule.
+    template <class Drive>
+    Int begun_at(Stop& stop, Int begin, const Drive& drive, Int end) {
+        stop.hold = begin;
+        if (!drive(data_, route_, stops_, sorties_)) return far;
+        const Int late = route_.end - end;
+        return late > 0 || !any_too_long(data_, route_, stops_, trips_, sorties_) ? late : far;
+    }
+
+    // Tell whether there are breaks that may be kept where the route begins later, if it ends no
+    // later.
+    bool keeps_placed() const {
+        return resting_ && route_.placed == breaks_by_end &&
+               (!has_driving_rules(type_) || (follows_driver(type_) && any_rest(type_, route_))) &&
+               std::any_of(stops_.begin(), stops_.end(),
+                           [](const Stop& stop) { return stop.rests != 0; });
+    }
+
+    const ProblemData& data_;
+    Route& route_;
+    const View<Stop, 1> stops_;
+    const View<const Trip, 1> trips_;
+    const View<Sortie, 1> sorties_;
+    const VehicleType& type_ = data_.type[route_.type];
+    const bool resting_ = rests_in_time(type_);
+    const bool may_lose_ = resting_ || has_driving_rules(type_);
+    const bool by_end_ = resting_ && route_.sorties > 0;
+    const Int most_ = lags_count(data_) ? halvings_with_lags
+                      : resting_        ? halvings_with_breaks
+                                        : halvings;
+};
 
 }  // namespace
 
@@ -174,51 +286,7 @@ void clear_holds(const Route& route, View<Stop, 1> stops, View<const Trip, 1> tr
 
 bool settle(const ProblemData& data, Route& route, View<Stop, 1> stops, View<const Trip, 1> trips,
             View<Sortie, 1> sorties) {
-    const bool resting = rests_in_time(data.type[route.type]);
-    const bool may_lose = resting || has_driving_rules(data.type[route.type]);
-    Int index = 0, again = may_lose ? settled_again : 0;
-    const Int most = lags_count(data) ? halvings_with_lags
-                     : resting        ? halvings_with_breaks
-                                      : halvings;
-    while (index < route.trips) {
-        const Trip& trip = trips[index++];
-        Stop& stop = stops[trip.first];
-        const Int hold = latest_hold(data, route, stops, sorties, trip.first);
-        const Int soonest = std::max({stop.arrival, stop.release, stop.hold});
-        if (hold <= soonest) continue;
-        if (any_rest(data.type[route.type], route) && follows_driver(data.type[route.type])) {
-            const Int before = stop.hold;
-            if (!settle_followed(data, route, stops, stop, sorties, hold)) return false;
-            if (stop.hold > before && again-- > 0) --index;
-            continue;
-        }
-        const Int end = route.end, before = stop.hold;
-        Int late = 0;
-        const auto may_begin = [&](Int begin) {
-            stop.hold = begin;
-            late = 0;
-            if (!drive_forward(data, route, stops, sorties)) return false;
-            late = route.end - end;
-            return late <= 0 && !any_too_long(data, route, stops, trips, sorties);
-        };
-        LatestStart start(before, soonest, hold, resting && route.sorties > 0);
-        // Nothing is known of the latest then; mostly it can't be later at all.
-        const bool in_vain = hold >= end && resting && !may_begin(soonest + 1);
-        for (Int attempt = 0; attempt <= most && start.found() != hold && !in_vain; ++attempt) {
-            if (start.is_known() || (may_lose && data.deadline.passed())) break;
-            // If not, drones in another order of arrival took longer, or breaks that are due.
-            const bool may = may_begin(start.tried());
-            start.note(may, late);
-        }
-        const Int found = start.found();
-        if (stop.hold != found) {
-            stop.hold = found;
-            if (!drive_forward(data, route, stops, sorties)) return false;
-        }
-        // Without some breaks it may begin even later.
-        if (found > before && again-- > 0) --index;
-    }
-    return true;
+    return Settling(data, route, stops, trips, sorties).run();
 }
 
 }  // namespace tandem

@@ -18,7 +18,7 @@ from model.solution import Solution
 from tests.model.rollouts import roll
 from tests.model.search.break_days import cheapest as in_every_way
 from tests.model.search.break_days import found, small_day
-from tests.model.search.exhaustive import NEVER_BY_BEGINNING_LATER
+from tests.model.search.exhaustive import NEVER_BY_BEGINNING_LATER, cheapest_cost
 from tests.model.search.mixed_days import mixed_day
 from tests.model.tiny import draw_tiny, with_drone_types, with_gaps, with_setups
 from tests.model.tiny_breaks import short_day, with_breaks
@@ -114,6 +114,33 @@ def test_search_finds_the_cheapest_of_all_ways_to_take_breaks() -> None:
     for seed in (*range(25), 72, 94, 141, 168, 279, *ONCE_DEARER):
         problem = small_day(np.random.default_rng(seed))
         assert found(problem, 1_000) == pytest.approx(in_every_way(problem)), seed
+
+
+def flown(seed: int) -> Problem:
+    """Draw a few customers, and trucks with drones whose drivers have breaks."""
+    rng = np.random.default_rng((seed, 61))
+    problem = draw_tiny(rng, drone_share=1.0)
+    change = {1: with_gaps, 2: with_order, 3: with_setups}.get(seed % 4)
+    return with_breaks(rng, problem if change is None else change(rng, problem))
+
+
+def searched(problem: Problem) -> float:
+    plan = improve(problem, pack([problem]), Solution((), problem.left_out(())),
+                   SearchConfig(turns=500)).solution
+    judged = check(problem, plan)
+    assert judged.violations == ()
+    return judged.cost.total
+
+
+@pytest.mark.parametrize("seed", [16, 67, 94, 1181, 1202, 1284, 1318, 1393])
+def test_search_finds_the_cheapest_plan_with_breaks_beside_drones(seed: int) -> None:
+    problem = flown(seed)
+    assert searched(problem) == pytest.approx(cheapest_cost(problem))
+
+
+def test_a_break_lies_where_who_is_ordered_behind_others_is_served_in_time() -> None:
+    # Before the leg to the second customer is as soon over as behind it, but that is too late.
+    assert searched(flown(4162)) < 116.9
 
 
 CHANGES = with_gaps, with_setups, with_drone_types, with_shipments, with_order, with_order_across
