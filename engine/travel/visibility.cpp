@@ -15,7 +15,7 @@
 namespace tandem {
 namespace {
 
-constexpr Int few_edges = 12;     // with no more, every line of sight is compared with all
+constexpr Int few_edges = 12;  // with no more, every line of sight is compared with all
 constexpr Int nothing = -1;
 
 // Whether the segment from the origin to a point meets an edge.

@@ -102,9 +102,9 @@ def test_every_plan_that_the_clock_ends_is_legal_and_no_dearer(planner: Planner)
 def test_plans_come_in_time(planner: Planner, num_customers: int) -> None:
     for variant in ("vrptw", "mixed"):
         problem = generate(np.random.default_rng(num_customers), num_customers, variant)
-        began = time.process_time()
+        began = time.perf_counter()
         planner.plan(problem, PlanOptions(POLICIES[0], time_limit=60.0, search_iterations=1))
-        time_limit = max(0.1, 4 * (time.process_time() - began))
+        time_limit = max(0.1, 4 * (time.perf_counter() - began))
         began = time.process_time()
         result = planner.plan(problem, PlanOptions(POLICIES[0], time_limit=time_limit))
         assert time.process_time() - began <= time_limit + 0.2

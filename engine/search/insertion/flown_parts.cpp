@@ -14,9 +14,9 @@
 namespace tandem {
 namespace {
 
-constexpr Int most_end_places = 24;    // of an end on a trip
+constexpr Int most_end_places = 24;  // of an end on a trip
 constexpr Int most_combined = 64;  // of the cheapest of each pickup with one place of the delivery
-constexpr Int most_combinations = 64;    // of all combinations
+constexpr Int most_combinations = 64;  // of all combinations
 constexpr Int most_ends = most_pickups + 1;
 
 using PartPlaces = Cheapest<EndPlace, most_end_places>;

@@ -9,7 +9,7 @@ import pytest
 
 from app.main import create_app
 from app.serving.settings import Settings
-from tests.app.serving.load.nonsense import HELD_UP, Taken
+from tests.app.serving.load.nonsense import HELD_UP, PROCESSOR, Taken
 from tests.conftest import made_once
 
 pytestmark = pytest.mark.slow
@@ -17,8 +17,8 @@ pytestmark = pytest.mark.slow
 EACH = 12
 """Of so many kinds one is sent to a route here, and another one to the next."""
 
-PROCESSOR, GROWN = 1.0, 300 * 2**20
-"""Seconds of the service's time, and bytes."""
+GROWN = 300 * 2**20
+"""Bytes."""
 
 
 @pytest.fixture(scope="module")
