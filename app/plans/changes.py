@@ -1,11 +1,14 @@
 """Remedies as changes of the request: where, as errors tell it, and by or to what."""
 
+import re
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any, Literal, cast
 
 from pydantic import BaseModel
 
+from app.schemas.customer import place_name
 from app.schemas.errors import json_path
 from app.schemas.fields import MAX_AMOUNT
 from app.schemas.relation import RelationInput
@@ -23,6 +26,9 @@ Found = list[tuple[Keys, Data]]
 
 CENT = 0.01
 
+MOST_RELATED = 500
+"""Customers in all relations up to which a remedy repeats these: each repeats them all."""
+
 THOUSANDTHS = 1000
 """Of a second or a metre, in which problems count."""
 
@@ -32,20 +38,56 @@ class NowhereError(Exception):
 
 
 @dataclass(frozen=True)
-class Changing:
-    """The request, the vehicle type whose remedy it is, and who is left out."""
+class Stated:
+    """A request, and where it states whom: worked out once, for thousands who are left out."""
 
     request: PlanRequest
-    type: Keys
-    subject: Keys
+
+    @cached_property
+    def customers(self) -> dict[str, Keys]:
+        """Where customers are, their other places, and ends of shipments, by name."""
+        customers = [*enumerate(self.request.customers)]
+        return {
+            **{place_name(each.id, place.id): ("customers", number, "alternatives", index)
+               for number, each in customers for index, place in enumerate(each.alternatives)},
+            **{each.id: ("customers", number) for number, each in customers},
+            # Ends are among customers, too.
+            **{name: ("shipments", number, *parsed(where))
+               for number, each in enumerate(self.request.shipments)
+               for name, where in each.named_ends()}}
+
+    @cached_property
+    def shipments(self) -> dict[str, Keys]:
+        """Where shipments are."""
+        return {each.id: ("shipments", number)
+                for number, each in enumerate(self.request.shipments)}
+
+    @cached_property
+    def units(self) -> dict[str, str]:
+        """The shipment of each end, by the end's name."""
+        return {name: each.id for each in self.request.shipments for name, _ in each.named_ends()}
+
+
+@dataclass(frozen=True)
+class Changing:
+    """The request, the vehicle type whose remedy it is, and who is left out: where, and his id."""
+
+    stated: Stated
+    type: Keys = ()
+    subject: Keys = ()
+    name: str = ""
 
     @classmethod
-    def of(cls, request: PlanRequest, kind: str, left_out: str, is_shipment: bool) -> "Changing":
+    def of(cls, stated: Stated, kind: str, left_out: str, is_shipment: bool) -> "Changing":
         """Return it by ids of the vehicle type, and of the customer or shipment."""
-        all_of, stated = (("shipments", request.shipments) if is_shipment
-                          else ("customers", request.customers))
-        return cls(request, ("fleet", _index(request.fleet, kind)),
-                   (all_of, _index(stated, left_out)))
+        places = stated.shipments if is_shipment else stated.customers
+        type_at: Keys = ("fleet", _index(stated.request.fleet, kind))
+        return cls(stated, type_at, places[left_out], left_out)
+
+    @property
+    def request(self) -> PlanRequest:
+        """The request."""
+        return self.stated.request
 
     def changes(self, remedy: Remedy) -> list[Data]:
         """Return all changes of a remedy; none if the request has no place for one of them.
@@ -70,10 +112,10 @@ class Changing:
         if whose == "request":
             return None
         if whose == "subject":
-            return change.of or str(self.at(self.subject).id)
+            return change.of or self.name
         if whose == "end":
             end, _, part = change.of.partition(" ")
-            return end_name(self.at(self.subject).id, cast("EndKind", end), part or None)
+            return end_name(self.name, cast("EndKind", end), part or None)
         drones = "".join(change.names) if change.limit == "batteries_aboard" else change.of
         name = {"drones": drones, "named": change.of}.get(whose)
         return name or str(self.at(self.type).id)
@@ -127,6 +169,12 @@ def _index(stated: list[Any], name: str) -> int:
         if each.id == name:
             return index
     raise NowhereError
+
+
+def parsed(path: str) -> Keys:
+    """Return names and numbers of a path, such as `pickups[1].time_window`."""
+    return tuple([int(index) if index else name
+                  for name, index in re.findall(r"(\w+)|\[(-?\d+)]", path)])
 
 
 def as_written(value: Any) -> Any:
@@ -200,21 +248,22 @@ def _names(of: Changing) -> set[str]:
     left_out = of.at(of.subject)
     if isinstance(left_out, ShipmentInput):
         return {name for name, _ in left_out.named_ends()}
-    return {left_out.id}
+    return {of.name}
 
 
 def unrelated(of: Changing) -> Found:
     """Return that relations bind somebody no longer; of one alone nothing is left."""
-    names, unit = _names(of), {name: each.id for each in of.request.shipments
-                               for name, _ in each.named_ends()}
+    names, relations = _names(of), of.request.relations
+    if sum(len(each.customers) for each in relations) > MOST_RELATED:
+        raise NowhereError
 
     def is_left(each: RelationInput, others: list[str]) -> bool:
         # Ends of one shipment go together anyhow.
-        units = {unit.get(name, f"customer {name}") for name in others}
+        units = {of.stated.units.get(name, f"customer {name}") for name in others}
         return len(others) > 1 and (each.kind == "before" or len(units) > 1)
 
     left = []
-    for each in of.request.relations:
+    for each in relations:
         others = [name for name in each.customers if name not in names]
         if is_left(each, others):
             left.append({**as_written(each), "customers": others})

@@ -7,7 +7,7 @@ from math import ceil, floor
 from typing import NamedTuple
 
 from app.maps.airspace.zone import ZoneHeight
-from app.plans.changes import Changing
+from app.plans.changes import Changing, Stated
 from app.plans.remedies import remedies_reply, remedy_reply
 from app.plans.replies import Data
 from app.plans.storms import HELD_BACK
@@ -163,7 +163,7 @@ class Closures:
         """Add by which buffer somebody so far from an area is far enough away. In place."""
         enough = floor(metres - WIDER_M)
         if enough >= 0:
-            changing = Changing(self._request, (), ())
+            changing = Changing(Stated(self._request))
             reason |= remedies_reply([*reason["remedies"], remedy_reply(
                 remedy_of("buffer", quantity=enough), changing, is_judged=False)])
 

@@ -1,13 +1,13 @@
 """A unit more of a limit that binds, or a rule lifted, as changes of the request."""
 
-import re
 from collections.abc import Callable
 from dataclasses import replace
 
-from app.plans.changes import Changing, Data, Keys, NowhereError, as_written, unrelated
+from app.plans.changes import (
+    Changing, Data, Keys, NowhereError, Stated, as_written, parsed, unrelated,
+)
 from app.schemas.errors import json_path
 from app.schemas.fields import MAX_AMOUNT
-from app.schemas.request import PlanRequest
 from model.counsel.binding import Limit
 
 SECONDS_OR_METRES = {"minute": 60.0, "km": 1000.0}
@@ -27,43 +27,25 @@ LIFTED: dict[str, object] = {
 """What a field without a number is, where it forbids nothing."""
 
 
-def step(request: PlanRequest, limit: Limit, at: str, is_shipment: bool) -> list[Data]:
+def step(stated: Stated, limit: Limit, at: str, is_shipment: bool) -> list[Data]:
     """Return what a unit more changes; none where the request has no place for it.
 
     `at` is the id of whose limit it is, as replies tell it, and may be that of a whole shipment.
     """
     try:
-        of = _changing(request, limit, at, is_shipment)
+        of = _changing(stated, limit, at, is_shipment)
         return [{"path": json_path(keys), **value} for keys, value in _found(of, limit)]
     except NowhereError:
         return []
 
 
-def _changing(request: PlanRequest, limit: Limit, at: str, is_shipment: bool) -> Changing:
-    of = Changing(request, (), ())
+def _changing(stated: Stated, limit: Limit, at: str, is_shipment: bool) -> Changing:
+    of = Changing(stated)
     if limit.whose == "request":
         return of
     if limit.kind is not None:
         return replace(of, type=of.named("fleet", at))
-    return replace(of, subject=_subject(request, at, is_shipment))
-
-
-def _subject(request: PlanRequest, at: str, is_shipment: bool) -> Keys:
-    """Return where a customer is stated, one of his other places, a shipment, or an end of it."""
-    places: dict[str, Keys] = {}
-    for number, customer in enumerate(request.customers):
-        places |= {f"{customer.id}/{place.id}": ("customers", number, "alternatives", index)
-                   for index, place in enumerate(customer.alternatives)}
-        places[customer.id] = ("customers", number)
-    # Their ends are among customers, too.
-    for number, shipment in enumerate(request.shipments):
-        places |= {name: ("shipments", number, *_parsed(where))
-                   for name, where in shipment.named_ends()}
-        if is_shipment or shipment.id not in places:
-            places[shipment.id] = ("shipments", number)
-    if at not in places:
-        raise NowhereError
-    return places[at]
+    return replace(of, name=at, subject=(stated.shipments if is_shipment else stated.customers)[at])
 
 
 def _found(of: Changing, limit: Limit) -> list[tuple[Keys, Data]]:
@@ -100,14 +82,14 @@ def _place(of: Changing, field: str) -> Keys:
         depot = of.at((*of.type, "depot")) or of.request.depots[0].id
         return of.named("depots", depot, *field.split(".")[1:])
     if field.startswith("drones."):
-        return _within(of, of.flyer(""), _parsed(field)[1:])
+        return _within(of, of.flyer(""), parsed(field)[1:])
     for all_of in ("breaks", "drones"):
         stated = of.at((*keys, all_of)) if field.startswith(f"{all_of}[") else []
         for index, each in enumerate(stated):
             name = f"{all_of}[{each.id}]"
             if field.startswith(name):
-                return _within(of, (*keys, all_of, index), _parsed(field[len(name):]))
-    return _within(of, keys, _parsed(field))
+                return _within(of, (*keys, all_of, index), parsed(field[len(name):]))
+    return _within(of, keys, parsed(field))
 
 
 def _within(of: Changing, keys: Keys, names: Keys) -> Keys:
@@ -122,8 +104,3 @@ def _within(of: Changing, keys: Keys, names: Keys) -> Keys:
     if names[-1:] in (("capacity",), ("max_load",)):
         rest.append(0)
     return *keys, first, *rest
-
-
-def _parsed(field: str) -> Keys:
-    return tuple([int(index) if index else name
-                  for name, index in re.findall(r"(\w+)|\[(-?\d+)]", field)])

@@ -5,12 +5,12 @@ import time
 from collections import defaultdict
 from collections.abc import Iterable, Sequence
 from dataclasses import asdict, dataclass, field, replace
-from functools import partial
+from functools import cached_property, partial
 
 from pydantic_core import to_json
 
 from app.maps.roads.roads import NO_ROADS, Roads
-from app.plans.changes import Changing
+from app.plans.changes import Changing, Stated
 from app.plans.remedies import remedy_reply
 from app.plans.steps import step
 from app.plans.carried import Info, carry, info_of, names_left_out
@@ -157,19 +157,23 @@ class Task:
 
     def remedy(self, node: int, reason: Reason, remedy: Remedy) -> Data:
         """Return a remedy for who is left out at a node."""
-        if self.places is None:
+        if self.stated is None:
             return remedy_reply(remedy, None)
         shipment = self.problem.shipment_at.get(node)
         name = (self.problem.customer_at(self.problem.first_place(node)).id if shipment is None
                 else shipment.id)
         kind = self.problem.vehicle_types[reason.vehicle_type].type_id
-        changing = Changing.of(self.places.placed.request, kind, name, shipment is not None)
+        changing = Changing.of(self.stated, kind, name, shipment is not None)
         return remedy_reply(remedy, changing)
 
     def step(self, limit: Limit, at: str, is_shipment: bool) -> list[Data]:
         """Return what a unit more of a limit changes of the request; `at` is whose it is."""
-        return ([] if self.places is None
-                else step(self.places.placed.request, limit, at, is_shipment))
+        return [] if self.stated is None else step(self.stated, limit, at, is_shipment)
+
+    @cached_property
+    def stated(self) -> Stated | None:
+        """Where the request states whom; None: there is no request."""
+        return None if self.places is None else Stated(self.places.placed.request)
 
     def reply(self, options: PlanOptions, result: PlanResult) -> Data:
         """Return the reply to a plan, as `plan_reply` does, with reasons while there is time."""

@@ -6,7 +6,7 @@ from typing import Any
 import httpx
 import pytest
 
-from app.plans.changes import Changing
+from app.plans.changes import Changing, Stated
 from app.schemas.request import PlanRequest
 from examples.remedy import applied
 from model.counsel.remedy import remedy_of
@@ -113,7 +113,7 @@ def test_what_is_back_at_the_depot_is_changed_at_its_delivery(limit: str, change
     shipment = {"id": "s", "amount": [1], "pickup": {"location": [2, 0]}, "max_time_between": 300,
                 "delivery": {"location": [6, 0], "time_window": {"latest": 1200}}}
     request = PlanRequest.model_validate_json(json.dumps(request_of({}, {}, shipments=[shipment])))
-    changing = Changing.of(request, "van", "s", is_shipment=True)
+    changing = Changing.of(Stated(request), "van", "s", is_shipment=True)
     assert changing.changes(remedy_of(limit, quantity=60_000)) == [change]
 
 
@@ -122,7 +122,7 @@ def test_what_is_back_at_the_depot_is_changed_at_its_delivery(limit: str, change
     ("work", {"max_working_duration": 10**9 - 59})])
 def test_nothing_is_changed_to_what_a_request_can_not_state(limit: str, van: Request) -> None:
     request = PlanRequest.model_validate_json(json.dumps(request_of({}, van)))
-    changing = Changing.of(request, "van", "A", is_shipment=False)
+    changing = Changing.of(Stated(request), "van", "A", is_shipment=False)
     assert changing.changes(remedy_of(limit, quantity=60_000)) == []
 
 
@@ -131,7 +131,29 @@ def test_nothing_is_changed_where_the_request_has_no_place_for_it() -> None:
         {"id": "farm", "amount": [1], "location": [2, 0]},
         {"id": "mill", "amount": [1], "location": [3, 0], "time_window": {"latest": 60}}]}
     request = PlanRequest.model_validate_json(json.dumps(request_of({}, {}, shipments=[shipment])))
-    changing = Changing.of(request, "van", "s", is_shipment=True)
+    changing = Changing.of(Stated(request), "van", "s", is_shipment=True)
     assert changing.changes(remedy_of("end_window", "pickup", 60_000)) == []
     (change,) = changing.changes(remedy_of("end_window", "pickup mill", 60_000))
     assert change["path"] == "$.shipments[0].pickups[1].time_window.latest"
+
+
+def test_what_is_left_of_a_shipment_is_changed_where_it_is_stated() -> None:
+    shipment = {"id": "s", "amount": [1], "pickup": {"location": [2, 0]},
+                "delivery": {"location": [6, 0], "time_window": {"latest": 1200}}}
+    request = PlanRequest.model_validate_json(json.dumps(request_of({}, {}, shipments=[shipment])))
+    changing = Changing.of(Stated(request), "van", "s/delivery", is_shipment=False)
+    remedy = remedy_of("window", quantity=60_000)
+    assert changing.changes(remedy) == [
+        {"path": "$.shipments[0].delivery.time_window.latest", "by": 60}]
+    assert changing.who(remedy.changes[0]) == "s/delivery"
+
+
+@pytest.mark.parametrize(("related", "left"), [(500, [499]), (501, [])])
+def test_relations_are_repeated_while_few_are_in_them(related: int, left: list[int]) -> None:
+    names = [f"C{number}" for number in range(related)]
+    request = PlanRequest.model_validate_json(json.dumps(request_of(
+        {}, {}, customers=[{"id": name, "location": [1, 0], "demand": [1]} for name in names],
+        relations=[{"kind": "together", "customers": names}])))
+    changes = Changing.of(Stated(request), "van", "C0", is_shipment=False).changes(
+        remedy_of("relations"))
+    assert [len(change["to"][0]["customers"]) for change in changes] == left

@@ -6,7 +6,7 @@ from typing import Any
 import httpx
 import pytest
 
-from app.plans.changes import CHANGES, WHOSE, Changing
+from app.plans.changes import CHANGES, WHOSE, Changing, Stated
 from app.schemas.request import PlanRequest
 from model.counsel.remedy import CLAUSES, Change
 from tests.app.plans.asking import planned
@@ -86,4 +86,4 @@ def test_a_remedy_says_whom_it_is_about(subject: str, change: Change, who: str |
     shipment = {"id": "S", "delivery": {"location": [6, 0]}, "pickups": [
         {"id": "mill", "amount": [1], "location": [3, 0]}]}
     request = PlanRequest.model_validate_json(json.dumps(request_of({}, {}, shipments=[shipment])))
-    assert Changing.of(request, "van", subject, subject == "S").who(change) == who
+    assert Changing.of(Stated(request), "van", subject, subject == "S").who(change) == who
