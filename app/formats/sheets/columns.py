@@ -10,13 +10,15 @@ from app.formats.sheets.clocks import Style
 from app.formats.sheets.headings import HEADING, guesses, simple
 from app.formats.sheets.layout import Table
 from app.formats.sheets.links import is_link, place_of
-from app.formats.sheets.meanings import MEANINGS, meaning_at
+from app.formats.sheets.meanings import MEANINGS, MONEY, meaning_at
 from app.formats.sheets.numbers import own_unit
 from app.formats.sheets.readers import NO, ORDER_KINDS, YES, read, ticked_kind
 from app.formats.sheets.schemas import ColumnMapping
 from app.formats.sheets.sides import DELIVERY, OWN, Side, guesses_at, sides_of
 from app.formats.sheets.states import CANCELLED, DONE, STATES
-from app.formats.sheets.units import UnitGuess, amount_unit, clock_unit, duration_unit
+from app.formats.sheets.units import (
+    UnitGuess, amount_unit, are_instants, clock_unit, duration_unit,
+)
 
 SAMPLED = 300
 """Cells of a column from which its meaning is guessed."""
@@ -253,8 +255,10 @@ def _fit(cells: Sequence[Raw], column: Column, style: Style) -> float:
     if kind == "kind":
         return sum(ticked_kind(read(raw, kind, None, style), column.heading) in ORDER_KINDS
                    for raw in cells) / len(cells)
-    if kind == "amount" and any(own_unit(raw) for raw in cells):
-        return 1.0
+    if kind == "amount" and (units := {unit for raw in cells if (unit := own_unit(raw))}):
+        return 0.0 if MONEY in units else 1.0
+    if kind == "amount" and column.unit is None and are_instants(cells):
+        return 0.0
     said = 0
     for raw in cells:
         try:

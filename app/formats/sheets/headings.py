@@ -6,8 +6,10 @@ from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from functools import cache, lru_cache
 
-from app.formats.sheets.meanings import CLOCK_UNITS, DURATION_UNITS, MEANINGS, UNITS
-from app.formats.sheets.words import BEGIN, COLUMNS, END, WINDOW
+from app.formats.sheets.meanings import (
+    CLOCK_UNITS, DURATION_UNITS, MASSES, MEANINGS, MONEY, PRICES, UNITS, VOLUMES, Kind,
+)
+from app.formats.sheets.words import ACTS, BEGIN, COLUMNS, END, WHOLE, WINDOW
 
 SURE = 1.0
 HEADING = 0.66
@@ -31,9 +33,14 @@ STOP_UNITS = ("minutes", "seconds")
 
 OF_STOPS = frozenset({"name", "demand", "address", "order"})
 
+OF_TIME: tuple[Kind, ...] = ("text", "clock", "windows", "duration", "date")
+"""What a heading may mean that states a unit of time."""
+
 _SIGNS = str.maketrans({"ß": "ss", "ł": "l", "ø": "o", "æ": "ae", "œ": "oe", "đ": "d", "³": "3",
                         "²": "2", "№": " no ", "\u0131": "i", "#": " no ", "º": " ", "°": " "})
 _UNIT = re.compile(r"[(\[{](?P<unit>[^)\]}]{1,20})[)\]}]")
+_PLURAL = re.compile(r"(?<=[^\W\d_])\((s|e?n)\)")
+"""As in `parcel(s)`, which are no seconds."""
 _WORD = re.compile(r"[^\W\d_]{2,20}\.?")
 _WORDS = re.compile(r"[a-z0-9]++|[^\W\d_]++", re.ASCII)
 _CAMEL = re.compile(r"(?<=[a-z])(?=[A-Z])")
@@ -77,9 +84,10 @@ def is_unit(text: str) -> bool:
 @lru_cache(4096)
 def guesses(heading: str) -> tuple[HeadingGuess, ...]:
     """Return what a heading may mean, the likeliest first."""
+    heading = _PLURAL.sub(r"\1", heading[:LONGEST_LOOK])
     stated = _UNIT.search(heading)
     unit = unit_named(stated["unit"]) if stated else None
-    words = simple(_UNIT.sub(" ", heading[:LONGEST_LOOK])).split()[:MOST_LOOKED_AT]
+    words = simple(_UNIT.sub(" ", heading)).split()[:MOST_LOOKED_AT]
     found = dict(_scored(words, unit))
     last = UNITS.get(words[-1]) if unit is None and len(words) > 1 else None
     if last:
@@ -88,13 +96,16 @@ def guesses(heading: str) -> tuple[HeadingGuess, ...]:
             if _takes(meaning, last) and better.score > found.get(meaning, better).score - 1e-9:
                 found[meaning] = better
     _read_as_time(found, unit or last)
+    said = unit or (last if last and len(words[-1]) > 1 else None) or _money_in(heading)
+    found = {meaning: guess for meaning, guess in found.items() if _agrees(meaning, said)}
     if stated and unit is None and "demand" in found and _WORD.fullmatch(stated["unit"]):
         found["demand"] = replace(found["demand"], unit=stated["unit"])
-    # A heading may say no more than the unit of an amount.
-    if not found and (unit or UNITS.get(words[0] if len(words) == 1 else "")) in STOP_UNITS:
-        found["service"] = HeadingGuess("service", 0.9, unit or UNITS[words[0]])
-    alone = unit or UNITS.get(words[0]) if len(words) == 1 else unit if not words else None
-    if alone and _takes("demand", alone):
+    # A heading may say no more than a unit; one of masses or volumes is of an amount.
+    alone = unit if not words else UNITS.get(words[0]) if len(words) == 1 else None
+    if not found and alone in STOP_UNITS:
+        found["service"] = HeadingGuess("service", 0.9, alone)
+    alone = alone or (said if said in MASSES or said in VOLUMES else None)
+    if alone and _takes("demand", alone) and (alone != said or not found):
         found.setdefault("demand", HeadingGuess("demand", 0.9, alone))
     return tuple(sorted(found.values(), key=lambda guess: -guess.score))
 
@@ -116,10 +127,29 @@ def is_known(heading: str, least: float = HEADING) -> bool:
     return bool(found) and found[0].score >= least
 
 
+def _money_in(heading: str) -> str | None:
+    """Return the unit of a heading that names a currency."""
+    words = re.split(r"[\s()\[\]/]+", heading.lower()[:LONGEST_LOOK])
+    return MONEY if any(UNITS.get(word) == MONEY for word in words) else None
+
+
+def _agrees(meaning: str, unit: str | None) -> bool:
+    """Tell whether a column in a unit can mean something: kilograms are no time of day."""
+    kind = MEANINGS[meaning].kind
+    if unit == MONEY:
+        return meaning in PRICES
+    if unit in MASSES or unit in VOLUMES:
+        return kind == "amount"
+    if unit in DURATION_UNITS or unit in CLOCK_UNITS:
+        return kind in OF_TIME or meaning in PRICES
+    return True
+
+
 def _takes(meaning: str, unit: str) -> bool:
     """Tell whether cells of a meaning may be in a unit."""
     units = MEANINGS[meaning].units
-    is_amount = MEANINGS[meaning].kind == "amount" and unit not in (*CLOCK_UNITS, *DURATION_UNITS)
+    is_amount = MEANINGS[meaning].kind == "amount" and unit not in (
+        MONEY, *CLOCK_UNITS, *DURATION_UNITS)
     return unit in units if units else is_amount
 
 
@@ -129,6 +159,8 @@ def _scored(words: list[str], unit: str | None) -> Iterator[tuple[str, HeadingGu
     phrases = _phrases()
     for phrase, score in _fitting(words):
         for place, meaning, language in phrases.get(phrase, ()):
+            if score < SURE and " ".join(phrase) in WHOLE.get(meaning, ()):
+                continue
             found = (score, -place, language)
             best[meaning] = max(best.get(meaning, found), found)
     for meaning, (score, _, language) in best.items():
@@ -159,7 +191,8 @@ def _phrases() -> dict[tuple[str, ...], list[tuple[int, str, str]]]:
     for meaning, ends in (("earliest", BEGIN), ("latest", END)):
         for language, phrases in ends.items():
             for word in phrases:
-                listed += [(text, meaning, language) for window in WINDOW[language]
+                listed += [(text, meaning, language)
+                           for window in (*WINDOW[language], *ACTS.get(language, ()))
                            for text in (f"{window} {word}", f"{word} {window}")]
                 listed += [(f"{word} {filler}", meaning, language)
                            for filler in ("time", "uhr", "zeit", "uhrzeit", "heure", "hora", "ora")]

@@ -21,6 +21,7 @@ PLANAR_UNITS = ("m", "km")
 
 MASSES = {"kg": 1.0, "g": 0.001, "t": 1000.0, "lb": 0.45359237, "oz": 0.028349523125}
 VOLUMES = {"l": 1.0, "ml": 0.001, "m3": 1000.0, "cm3": 0.001, "ft3": 28.316846592}
+MONEY = "money"
 FAMILIES = (MASSES, VOLUMES)
 """Units of amounts by their size in the first of each; any other unit is a word."""
 
@@ -93,6 +94,10 @@ MEANINGS = {
     "info": Meaning("For the driver, as it is", "text", repeats=True),
     "ignored": Meaning("Not used", "text", repeats=True),
 }
+
+PRICES = frozenset(name for name, meaning in MEANINGS.items()
+                   if "cost" in name or meaning.kind in ("prices", "text"))
+"""What may be in money, or is no more than words."""
 
 SIDES = {"pickup": "Pickup", "alternative": "Other place"}
 """Places that a row may state beside its own: where a shipment is fetched, and `alternatives`."""

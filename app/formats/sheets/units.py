@@ -54,6 +54,13 @@ def clock_unit(cells: Sequence[Raw], stated: str | None) -> UnitGuess:
     return _fraction_unit(bare, values)
 
 
+def are_instants(cells: Sequence[Raw]) -> bool:
+    """Tell whether numbers are days since 1900, with times, as spreadsheets hold them."""
+    values = [_value(raw) for raw in _bare_cells(cells)]
+    return (bool(values) and all(SERIALS[0] <= value < SERIALS[1] for value in values)
+            and any(value % 1 for value in values))
+
+
 def _whole_clock_unit(bare: Sequence[Raw], values: Sequence[float]) -> UnitGuess:
     most = max(values)
     if most <= LAST_HOUR:

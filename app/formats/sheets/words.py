@@ -19,6 +19,10 @@ WINDOW: Listed = _FILE["window"]
 BEGIN: Listed = _FILE["begin"]
 END: Listed = _FILE["end"]
 """Of windows, by language."""
+ACTS: Listed = _FILE["acts"]
+"""What is done at a stop: with `BEGIN` and `END`, when it may begin and must."""
+WHOLE: Listed = _FILE["whole"]
+"""Headings, by meaning, that say something else within longer ones."""
 
 COLUMNS: dict[str, Listed] = _FILE["columns"]
 """Headings of customers' columns, by meaning and language."""

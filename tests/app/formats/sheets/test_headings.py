@@ -33,3 +33,45 @@ def test_an_unsure_encoding_is_shown_by_a_heading_if_no_cell_does() -> None:
     (doubt,) = [doubt for doubt in import_file(content, ImportSettings()).doubts
                 if doubt.code == "ENCODING_GUESSED"]
     assert "'Dirección'" in doubt.message
+
+
+def meanings(reply: ImportReply) -> dict[str, str]:
+    return {column.heading: column.meaning for column in reply.columns}
+
+
+@pytest.mark.parametrize(("heading", "cells", "meaning"), [
+    ("Bitis (kg)", ("75.1", "43"), "demand"), ("To (kg)", ("480", "720"), "demand"),
+    ("Ende [m\u00b3]", ("1.5", "2"), "demand"), ("Sum kg", ("5", "7"), "demand"),
+    ("Menge (\u20ac)", ("20", "30"), "ignored"), ("Amount in EUR", ("20", "30"), "ignored"),
+    ("Amount", ("20 \u20ac", "30 \u20ac"), "ignored"), ("Penalty (EUR)", ("20", "30"),
+                                                     "unassigned_cost"),
+    ("Anfahrt (min)", ("20", "30"), "ignored"), ("Parcel(s)", ("2", "3"), "demand"),
+    ("Quantity", ("46000.375", "46000.5"), "ignored")])
+def test_a_unit_excludes_what_has_another(heading: str, cells: tuple[str, str],
+                                          meaning: str) -> None:
+    reply = read(f"name,lat,lon,{heading}", f"Anna,48.1,11.5,{cells[0]}",
+                 f"Ben,48.2,11.6,{cells[1]}")
+    assert meanings(reply)[heading] == meaning
+    assert reply.request is not None
+    assert "time_window" not in reply.request["customers"][0]
+
+
+@pytest.mark.parametrize(("verb", "place"), [
+    ("Deliver", "Lat"), ("deliver", "Lng"), ("To deliver", "Long")])
+def test_a_verb_beside_a_coordinate_is_no_amount(verb: str, place: str) -> None:
+    other = "Longitude" if place == "Lat" else "Latitude"
+    found = meanings(read(f"name,{verb} {place},{other},{verb}", "Anna,48.1,11.5,5"))
+    assert found == {"name": "name", f"{verb} {place}": "latitude" if place == "Lat" else
+                     "longitude", other: other.lower(), verb: "demand"}
+
+
+@pytest.mark.parametrize(("begin", "end"), [
+    ("Deliver after", "Deliver before"), ("Lieferung ab", "Lieferung bis"),
+    ("Livraison \u00e0 partir de", "Livraison au plus tard"), ("Dostawa od", "Dostawa do"),
+    ("Entrega desde", "Entrega hasta"), ("Arrive after", "Arrive by")])
+def test_numbers_of_days_are_times_of_the_day_and_no_amounts(begin: str, end: str) -> None:
+    reply = read(f"name,lat,lon,{begin},{end}", "Anna,48.1,11.5,46000.375,46000.5",
+                 "Ben,48.2,11.6,46000.5,46000.75")
+    assert reply.request is not None
+    assert [customer["time_window"] for customer in reply.request["customers"]] == [
+        {"earliest": 32400, "latest": 43200}, {"earliest": 43200, "latest": 64800}]
