@@ -1,7 +1,8 @@
 """A sheet that lists vehicles -> their names, capacities, shifts and costs."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
+from itertools import zip_longest
 from typing import Any
 
 from app.formats.sheets.cells import Doubt, MisreadError, Raw, letters
@@ -13,13 +14,14 @@ from app.formats.sheets.numbers import own_unit
 from app.formats.sheets.readers import read
 from app.formats.sheets.table import Sheet
 from app.formats.sheets.units import clock_unit, duration_unit
-from app.formats.sheets.words import VAN_HEADINGS, meant
+from app.formats.sheets.words import BEGIN, END, VAN_HEADINGS, meant
 
 KINDS: dict[str, Kind] = {
     "name": "text", "driver": "text", "count": "number", "capacity": "amount", "earliest": "clock",
     "latest": "clock", "window": "windows", "speed": "number", "per_km": "number",
     "per_hour": "number", "fixed": "number", "max_trips": "number", "skills": "names",
-    "break": "windows", "break_duration": "duration", "break_within": "duration",
+    "break": "windows", "break_from": "clock", "break_to": "clock",
+    "break_duration": "duration", "break_within": "duration",
     "break_paid": "text", "break_anywhere": "text", "break_max_load": "amount",
     "max_work": "duration", "max_travel": "duration", "driving_rules": "text",
     "max_driving": "duration", "max_work_before_break": "duration",
@@ -29,7 +31,7 @@ KINDS: dict[str, Kind] = {
 
 MEANINGS = meant(VAN_HEADINGS)
 
-REPEATED = ("capacity", "break", "break_duration")
+REPEATED = ("capacity", "break", "break_from", "break_to", "break_duration")
 """Meanings of several columns."""
 
 IN_HOURS = ("max_work", "max_travel", "break_within", "max_driving", "max_work_before_break",
@@ -39,6 +41,15 @@ IN_HOURS = ("max_work", "max_travel", "break_within", "max_driving", "max_work_b
 LENGTHS = frozenset(("dauer", "lange", "duration", "length", "duree", "duracion", "durata", "duur",
                      "minutes", "minuten"))
 """Words by which a heading of a numbered break is about its length."""
+
+LONGEST_BREAK = 4 * 3600.0
+"""From here on, a time under *break* is when it begins."""
+
+ENDS = {word: end for end, listed in enumerate((BEGIN, END))
+        for words in listed.values() for word in words}
+"""Words by which a heading is about a begin (0) or an end (1), before or behind others."""
+
+OF_ENDS = {"window": ("earliest", "latest"), "break": ("break_from", "break_to")}
 
 MOST_VANS = 1000
 
@@ -105,6 +116,18 @@ def _meaning_of(heading: str) -> str | None:
     words = simple(without_unit(heading)).split()
     if len(words) > 1 and unit_named(words[-1]) and " ".join(words) not in MEANINGS:
         words = words[:-1]
+    if (whole := _known(words)) is None and len(words) > 1 and words[-1].isdecimal():
+        words = words[:-1]
+    if " ".join(words) in MEANINGS or len(words) < 2:
+        return whole or _known(words)
+    for word, rest in ((words[-1], words[:-1]), (words[0], words[1:])):
+        if word in ENDS and (own := _known(rest)) in OF_ENDS:
+            return OF_ENDS[own][ENDS[word]]
+    return whole or _known(words)
+
+
+def _known(words: Sequence[str]) -> str | None:
+    """Return what words mean: all of them, or the longest phrase among them."""
     whole = " ".join(words)
     if whole in MEANINGS:
         return MEANINGS[whole]
@@ -116,7 +139,7 @@ def _meaning_of(heading: str) -> str | None:
 def _unit_in(table: Table, column: int, meaning: str) -> str | None:
     """Return what bare numbers of times in a column are in; None: it has none."""
     cells = [raw for _, raw in table.column(column)]
-    if meaning in ("earliest", "latest"):
+    if KINDS[meaning] == "clock":
         return clock_unit(cells, None).unit
     if KINDS[meaning] != "duration":
         return None
@@ -130,11 +153,23 @@ def _columns(table: Table) -> dict[int, str]:
     for column, heading in enumerate(table.headings):
         meaning = _meaning_of(heading)
         if meaning == "break" and (_unit_of(heading, None) in DURATION_UNITS
-                                   or LENGTHS & set(simple(heading).split())):
+                                   or LENGTHS & set(simple(heading).split())
+                                   or _are_lengths(table, column)):
             meaning = "break_duration"
         if meaning in KINDS and (meaning in REPEATED or meaning not in meant.values()):
             meant[column] = meaning
     return meant
+
+
+def _are_lengths(table: Table, column: int) -> bool:
+    """Tell whether breaks are stated by their length alone, such as `30 min`."""
+    cells = [raw for _, raw in table.column(column)]
+    unit = duration_unit(cells, None).unit
+    try:
+        lengths = [read(raw, "duration", unit, Style()) for raw in cells]
+    except MisreadError:
+        return False
+    return bool(lengths) and max(lengths) < LONGEST_BREAK
 
 
 def _van(table: Table, row: int, meant: Mapping[int, str], units: Mapping[int, str | None],
@@ -142,12 +177,15 @@ def _van(table: Table, row: int, meant: Mapping[int, str], units: Mapping[int, s
     """Return the vehicle of a row; None: there is none, or no name and no capacity."""
     van = Van()
     ends: dict[str, float] = {}
+    pauses: tuple[list[float | None], list[float | None]] = [], []
     for column, meaning in meant.items():
         value = _value(table, row, column, KINDS[meaning], units.get(column), style)
         if meaning == "break":
             van.breaks.append(value)
         elif meaning == "break_duration":
             van.break_durations.append(value)
+        elif meaning in OF_ENDS["break"]:
+            pauses[OF_ENDS["break"].index(meaning)].append(value)
         elif value is None:
             continue
         elif meaning in ("name", "driver"):
@@ -167,6 +205,8 @@ def _van(table: Table, row: int, meant: Mapping[int, str], units: Mapping[int, s
             van.cells[meaning] = f"{table.sheet.name}!{table.name(row, column)}"
         else:
             van.values[meaning] = value
+    van.breaks += [[pause] if any(end is not None for end in pause) else None
+                   for pause in zip_longest(*pauses)]
     if ends:
         van.shift = ends.get("earliest"), ends.get("latest")
     is_there = van.values.get("count") != 0

@@ -162,3 +162,40 @@ def test_the_example_shows_every_rule_and_is_planned(searching: httpx.Client) ->
                 for trip in route["trips"] for stop in trip["stops"]}
     assert vehicles["Bakery"] == vehicles["Florist"] == vehicles["Caf\u00e9"]
     assert vehicles["Joiner"] == vehicles["Painter"] != vehicles["Pharmacy"]
+
+
+@pytest.mark.parametrize(("begin", "end", "length"), [
+    ("Przerwa od", "Przerwa do", "Przerwa min"), ("Pause von", "Pause bis", "Pausendauer"),
+    ("Break start", "Break end", "Break (min)"), ("Lunch from", "Lunch to", "Lunch min"),
+    ("Pause début", "Pause fin", "Durée pause (min)"), ("Descanso desde", "Descanso hasta",
+                                                        "Descanso min")])
+def test_a_break_has_its_begin_its_end_and_its_length_in_columns(begin: str, end: str,
+                                                                 length: str) -> None:
+    van, = vehicles(("Fahrzeug", "Kapazität", begin, end, length), ("A", 5, "12:00", "13:00", 30))
+    assert van["breaks"] == [{"id": "break", "duration": 1800,
+                              "start": {"earliest": 43200, "latest": 45000}}]
+
+
+def test_two_breaks_have_their_begins_and_ends_in_columns() -> None:
+    van, = vehicles(("Vehicle", "Capacity", "Break 1 from", "Break 1 to", "Break 2 from",
+                     "Break 2 to"), ("A", 5, "10:00", "10:15", "12:00", "12:45"))
+    assert [(pause["duration"], pause["start"]["earliest"]) for pause in van["breaks"]] == [
+        (900, 36000), (2700, 43200)]
+
+
+@pytest.mark.parametrize(("heading", "cell"), [
+    ("Pause", "30 min"), ("Break", 30), ("Lunch", "0:30")])
+def test_a_break_may_be_no_more_than_a_length(heading: str, cell: str | int) -> None:
+    van, = vehicles(("Fahrzeug", "Kapazität", heading), ("A", 5, cell))
+    [pause] = van["breaks"]
+    assert (pause["duration"], pause["after_departure"]) == (1800, True)
+
+
+@pytest.mark.parametrize(("begin", "end"), [
+    ("Praca od", "Praca do"), ("Available from", "Available to"), ("Work start", "Work end"),
+    ("Arbeitszeit Beginn", "Arbeitszeit Ende"), ("Schicht ab", "Schicht bis"),
+    ("Clock in", "Clock out"), ("Verfügbar von", "Verfügbar bis"), ("Jornada inicio",
+                                                                    "Jornada fin")])
+def test_shifts_begin_and_end_in_other_words(begin: str, end: str) -> None:
+    van, = vehicles(("Fahrzeug", "Kapazität", begin, end), ("A", 5, "7:00", "17:00"))
+    assert van["shift"] == {"earliest": 25200, "latest": 61200}
