@@ -94,6 +94,12 @@ def test_remedies_are_applied_with_one_click(console: Page) -> None:
     console.get_by_role("button", name="Apply and plan again: fits if its window").click()
     planned(console, "3 of 3 served")
     expect(console.get_by_text("Every customer is served.")).to_be_visible()
+    assert state(console, "state.request.fleet.0.capacity") == [30]
+    assert state(console, "state.request.customers.2.time_window.latest") > 1200
+    for _ in range(2):
+        console.keyboard.press("Control+z")
+    assert state(console, "state.request.fleet") == UNSERVABLE["fleet"]
+    assert state(console, "state.request.customers") == UNSERVABLE["customers"]
 
 
 def test_flights_are_drawn_as_they_are_measured(console: Page) -> None:
