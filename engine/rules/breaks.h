@@ -338,24 +338,30 @@ Int departure_before(const VehicleType& type, Rests rests, Int begin, Int arriva
     return driven ? time : back(time);
 }
 
+// The breaks that may come next, on a route that begins at `begin`: from a number on, but for those
+// that are too heavy for what is aboard, as bits.
+struct BreaksAhead {
+    Int next, heavy, begin;
+};
+
 // The breaks that a driver takes on a leg who doesn't know what comes behind it.
 //
-// From `next` on, each is put off if it may begin when the truck, not delayed, `leaves` there
-// again; it is taken at once where it ends before the service there `opens`. Nothing if none of
-// that can be. Those that are too `heavy` for what is aboard, as bits, are put off alone.
+// Each is put off if it may begin when the truck, not delayed, `leaves` there again; it is taken at
+// once where it ends before the service there `opens`. Nothing if none of that can be. Those that
+// are too heavy are put off alone.
 template <class Travel, class Leaves, class Opens>
-std::optional<Rests> rests_on_leg(const VehicleType& type, Int next, Int heavy, Int begin,
-                                  Int leave, const Travel& travel, const Leaves& leaves,
-                                  const Opens& opens) {
+std::optional<Rests> rests_on_leg(const VehicleType& type, const BreaksAhead& ahead, Int leave,
+                                  const Travel& travel, const Leaves& leaves, const Opens& opens) {
+    const Int begin = ahead.begin;
     Rests rests;
     BrokenLeg leg(type, begin, leave, travel);
     bool there = false;
-    for (; next < type.breaks; ++next) {
+    for (Int next = ahead.next; next < type.breaks; ++next) {
         if (over_before(type, next, begin)) continue;
         const Break pause = break_of(type, next, begin);
         BrokenLeg onward = leg;
         const Int arrival = onward.arrive();
-        const bool may = !is_among(heavy, next);
+        const bool may = !is_among(ahead.heavy, next);
         const bool waits = may && pause.may_begin(arrival) && pause.end(arrival) <= opens(arrival);
         if (!waits && leaves(arrival) <= pause.latest) break;
         if (!may) return std::nullopt;

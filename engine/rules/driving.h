@@ -11,6 +11,7 @@
 
 #include "problem/instance.h"
 #include "rules/breaks.h"
+#include "rules/shift.h"
 
 namespace tandem {
 
@@ -30,9 +31,19 @@ inline bool has_driving_rules(const VehicleType& type) { return type.must_rest =
 // Whether a driver may rest while drones are out.
 inline bool may_rest_in_flights(const VehicleType& type) { return type.rests_in_flights == 1; }
 
+// Whether a driver may pause, for breaks or by rules, so that timing takes long.
+inline bool may_pause(const VehicleType& type) {
+    return has_breaks(type) || has_driving_rules(type);
+}
+
 // Whether times hang on where its driver has breaks and rests.
 inline bool rests_in_time(const VehicleType& type) {
     return has_breaks(type) || (has_driving_rules(type) && !is_steady(type));
+}
+
+// Whether all on a route hangs on when it begins: what breaks are due, or how fast it is.
+inline bool hangs_on_begin(const VehicleType& type) {
+    return rests_in_time(type) || limits_timed_travel(type);
 }
 
 // Whether all that its driver rests lasts as long whenever it is, so that it is part of legs.
@@ -240,15 +251,15 @@ public:
                  const Ends& ends)
         : type_(type), leg_(leg), onward_(leg), opens_(opens), ends_(ends) {}
 
-    // The breaks from `next` on, but those that are too `heavy`, on a route that begins at `begin`.
-    // Nothing if they don't do.
-    std::optional<Rests> run(Int next, Int heavy, Int begin) {
-        for (; drive_on(); ++next) {
+    // Nothing if what may come next doesn't do.
+    std::optional<Rests> run(const BreaksAhead& ahead) {
+        const Int begin = ahead.begin;
+        for (Int next = ahead.next; drive_on(); ++next) {
             while (next < num_breaks(type_) && over_before(type_, next, begin)) ++next;
             if (next == num_breaks(type_)) return rest_there();
             const Break stated = break_of(type_, next, begin);
             const Int arrival = onward_.time();
-            const bool may = !is_among(heavy, next);
+            const bool may = !is_among(ahead.heavy, next);
             const bool waits =
                 may && stated.may_begin(arrival) && stated.end(arrival) <= opens_(arrival);
             if (!waits && ends_(arrival) <= stated.latest) return rest_there();

@@ -234,7 +234,7 @@ Ride ride(const Setting& setting, const VehicleLog& log, const Vehicle& vehicle,
     const auto [to, leave, out] = leg;
     const Int here = vehicle.node;
     const bool asks = has_driving_rules(setting.type);
-    if (!has_breaks(setting.type) && !asks) return {travel_arrival(setting, here, to, leave), {}};
+    if (!may_pause(setting.type)) return {travel_arrival(setting, here, to, leave), {}};
     const Int begin = log.trip[0].start;
     const Int setup = setup_after(setting.setup, here, to);
     const auto travel = travel_without_setup(setting, here, to);
@@ -254,6 +254,7 @@ Ride ride(const Setting& setting, const VehicleLog& log, const Vehicle& vehicle,
     };
     const Int heavy =
         has_breaks(setting.type) ? too_heavy(setting, vehicle, drones, to, is_customer) : 0;
+    const BreaksAhead pauses{vehicle.rested, heavy, begin};
     if (asks) {
         Int driven = 0;
         const std::optional<Driver> driver = driver_of(setting, log, driven);
@@ -262,13 +263,13 @@ Ride ride(const Setting& setting, const VehicleLog& log, const Vehicle& vehicle,
         const RestedLeg rested(speeds, begin, *driver, stood_at(setting, here), leave,
                                travel_of(setting, here, to));
         const std::optional<Rests> rests =
-            Unforeseeing(setting.type, rested, opens, leaves).run(vehicle.rested, heavy, begin);
+            Unforeseeing(setting.type, rested, opens, leaves).run(pauses);
         if (!rests || (attends && rests->any_unstated())) return {-1, {}};
         Driver counted = *driver;
         return {come(setting, {*rests, begin, here, to, leave}, counted), *rests};
     }
     const std::optional<Rests> rests =
-        rests_on_leg(setting.type, vehicle.rested, heavy, begin, leave, travel, leaves, opens);
+        rests_on_leg(setting.type, pauses, leave, travel, leaves, opens);
     if (!rests) return {-1, {}};
     Driver nobody{};
     return {come(setting, {*rests, begin, here, to, leave}, nobody), *rests};

@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "guard.h"
-#include "rules/breaks.h"
 #include "rules/clock.h"
 #include "rules/company.h"
 #include "rules/driving.h"
@@ -154,8 +153,8 @@ Int legal_services(const Rollout& rollout, View<Int, 1> actions, View<Outlook, 1
     const Int last = last_aboard(open);
     const bool laden = last != no_delivery;
     const bool trying = holds_count(setting) || order_is_open(setting, vehicle) || laden ||
-                        has_breaks(setting.type) || has_driving_rules(setting.type) ||
-                        keeps_hours(setting.type) || limits_timed_travel(setting.type);
+                        may_pause(setting.type) || keeps_hours(setting.type) ||
+                        limits_timed_travel(setting.type);
     const Size& size = instance.size[b];
     Int found = 0;
     const auto add_if_legal = [&](Verdict verdict, Service service) {

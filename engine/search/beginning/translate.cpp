@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "guard.h"
-#include "rules/breaks.h"
 #include "rules/driving.h"
 #include "rules/hub.h"
 #include "rules/pair.h"
@@ -64,7 +63,7 @@ bool time_anew(const ProblemData& data, Fleet& fleet, Int slot) {
         keep_starts(data, route, stops);
         return drive_forward(data, route, stops, sorties);
     }
-    if (rests_in_time(type) || limits_timed_travel(type)) {
+    if (hangs_on_begin(type)) {
         bool settled = false;
         return price_as_is(data, fleet, slot, no_bar, settled) &&
                (settled || settle(data, route, stops, trips, sorties));
@@ -153,7 +152,7 @@ double leg_cost(const ProblemData& data, const Searcher& searcher) {
 
 bool finish_route(const ProblemData& data, Fleet& fleet, Int slot) {
     const VehicleType& type = data.type[fleet.route[slot].type];
-    if (!has_breaks(type) && !has_driving_rules(type) && !limits_timed_travel(type)) {
+    if (!may_pause(type) && !limits_timed_travel(type)) {
         return time_anew(data, fleet, slot);
     }
     const Int spare = fleet.route.size() - 1;

@@ -3,8 +3,6 @@
 #include <algorithm>
 
 #include "randomness.h"
-#include "rules/breaks.h"
-#include "rules/driving.h"
 #include "rules/drone_types.h"
 #include "rules/energy.h"
 #include "rules/flight.h"
@@ -65,12 +63,6 @@ struct LeastCost {
         return cost;
     }
 };
-
-// Returns how long a route could work longer at no cost.
-Int spare_time(const ProblemData& data, const Route& route, View<const Stop, 1> stops) {
-    return rests_in_time(data.type[route.type]) ? route.working - least_working(data, route, stops)
-                                                : idle_time(route);
-}
 
 // Returns where a stop is, in half stops of the route as it was: one placed there is between two.
 Int half_stop(const Move& move, Int stop) {

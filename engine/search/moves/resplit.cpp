@@ -246,9 +246,7 @@ bool Resplit::line_up(Int slot, StopSpan part) {
     const auto [count, exact] = tandem::line_up(fleet, slot, part.first, part.last, rest);
     if (count == 0) return false;
     lines_.exact = lines_.exact && exact;
-    lines_.saves_time = lines_.saves_time || idle_time(route) > 0 ||
-                        is_dearer(data_.rate[type_], work_of(data_.type[type_], route)) ||
-                        any_rest(data_.type[type_], route);
+    lines_.saves_time = lines_.saves_time || may_save_more(data_, route);
     if (lines_.exact) {
         measure(data_, type_, rest, count);
         lines_.cost += present_cost(data_, type_, rest, count) + beside(data_, type_, rest, count);

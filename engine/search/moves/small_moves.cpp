@@ -70,9 +70,8 @@ void SmallMoves::add_trip(Int node) {
         if (trip(number).slot == slot) return;
     }
     const Int type = route.type;
-    if (data_.type[type].drones != 1 || data_.evaluation[type].priced || idle_time(route) > 0 ||
-        is_dearer(data_.rate[type], work_of(data_.type[type], route)) ||
-        any_rest(data_.type[type], route)) {
+    if (data_.type[type].drones != 1 || data_.evaluation[type].priced ||
+        may_save_more(data_, route)) {
         return;
     }
     const Trip& there = now.trip(slot, now.stop(slot, stop_beside(now, node)).trip);

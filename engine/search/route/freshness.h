@@ -4,10 +4,10 @@
 
 #include <algorithm>
 
+#include "rules/driving.h"
 #include "rules/holding.h"
 #include "search/route/flown_trips.h"
 #include "search/route/layout.h"
-#include "search/route/least_cost.h"
 #include "search/route/routes.h"
 
 namespace tandem {
@@ -50,7 +50,7 @@ bool hold_trip(const ProblemData& data, Route& route, View<Stop, 1> stops, const
                        : waits_for_calm(data, route, stops, trip);
         if (wait == 0) wait = wait_for_charge();
         if (wait <= 0) return true;
-        if (wait == far || (may_rest(type) && data.deadline.passed())) return false;
+        if (wait == far || (may_pause(type) && data.deadline.passed())) return false;
         Stop& stop = stops[trip.first];
         stop.release = std::max(stop.arrival, stop.release) + wait;
         if (!drive_forward(data, route, stops, sorties)) return false;

@@ -78,7 +78,7 @@ private:
         if (label.next < route_.due.count()) {
             const std::optional<Rests> rests =
                 Unforeseeing(type_, leg, opens, ends)
-                    .run(route_.due[label.next], route_.stops[way.p].heavy, route_.truck.begin);
+                    .run({route_.due[label.next], route_.stops[way.p].heavy, route_.truck.begin});
             if (!rests) return false;
             for (Int index = 0; index < rests->count(); ++index) {
                 const Int number = rests->number(index);

@@ -6,6 +6,7 @@
 #include "rules/shift.h"
 #include "search/route/drone_data.h"
 #include "search/route/rarer.h"
+#include "search/route/refresh.h"
 #include "search/route/rest_placing.h"
 #include "search/route/routes.h"
 #include "search/route/stop_loads.h"
@@ -71,10 +72,10 @@ Int least_lasting(const ProblemData& data, const Route& route, View<const Stop, 
     return time;
 }
 
-}  // namespace
-
-bool may_rest(const VehicleType& type) { return has_breaks(type) || has_driving_rules(type); }
-
+// Return how long a vehicle whose driver rests works at least on a route.
+//
+// Its legs, services and reloads last so long, and its breaks and rests, as far as they are paid
+// and can't be missed by whoever begins later.
 Int least_working(const ProblemData& data, const Route& route, View<const Stop, 1> stops) {
     const VehicleType& type = data.type[route.type];
     const NodeTable places = data.place.by_truck(type);
@@ -87,6 +88,13 @@ Int least_working(const ProblemData& data, const Route& route, View<const Stop, 
         if (stop.kind != end_stop) driving += driving_from(data, type, stops, p);
     }
     return lasting + least_pause(type, driving, lasting);
+}
+
+}  // namespace
+
+Int spare_time(const ProblemData& data, const Route& route, View<const Stop, 1> stops) {
+    return rests_in_time(data.type[route.type]) ? route.working - least_working(data, route, stops)
+                                                : idle_time(route);
 }
 
 LeastPrice least_cost(const ProblemData& data, const Fleet& fleet, Int slot) {

@@ -5,14 +5,8 @@
 
 namespace tandem {
 
-// Return whether a driver of a type may have to rest, so that timing takes long.
-bool may_rest(const VehicleType& type);
-
-// Return how long a vehicle whose driver rests works at least on a route.
-//
-// Its legs, services and reloads last so long, and its breaks and rests, as far as they are paid
-// and can't be missed by whoever begins later.
-Int least_working(const ProblemData& data, const Route& route, View<const Stop, 1> stops);
+// Return how long a route could work longer at no cost.
+Int spare_time(const ProblemData& data, const Route& route, View<const Stop, 1> stops);
 
 // What a route costs at least, and how long its vehicle works then.
 struct LeastPrice {
@@ -20,7 +14,7 @@ struct LeastPrice {
     Int working;
 };
 
-// Return what such a route costs at least, once its trips are loaded.
+// Return what a route costs at least whose driver rests, once its trips are loaded.
 LeastPrice least_cost(const ProblemData& data, const Fleet& fleet, Int slot);
 
 }  // namespace tandem

@@ -192,7 +192,7 @@ bool load_route(const ProblemData& data, const Fleet& fleet, Int slot) {
 // where it might not find them again once the search must end.
 bool is_copied(const ProblemData& data, const Route& route) {
     const VehicleType& type = data.type[route.type];
-    return routes_meet(data) || may_rest(type) || limits_timed_travel(type);
+    return routes_meet(data) || may_pause(type) || limits_timed_travel(type);
 }
 
 }  // namespace
@@ -200,7 +200,7 @@ bool is_copied(const ProblemData& data, const Route& route) {
 bool price_as_is(const ProblemData& data, const Fleet& fleet, Int slot, double bar, bool& settled) {
     if (!load_route(data, fleet, slot)) return false;
     const VehicleType& type = data.type[fleet.route[slot].type];
-    if (may_rest(type)) {
+    if (may_pause(type)) {
         const auto [in_time, working] = least_cost(data, fleet, slot);
         if (in_time >= bar) return false;
         if (joins_breaks(data, fleet.route[slot])) {

@@ -9,6 +9,7 @@
 #include "search/route/breaks.h"
 #include "search/route/lags.h"
 #include "search/route/rarer.h"
+#include "search/route/refresh.h"
 #include "search/route/rest_placing.h"
 #include "search/route/routes.h"
 
@@ -108,6 +109,12 @@ bool drive_with_pauses(const ProblemData& data, Route& route, View<Stop, 1> stop
 
 bool any_rest(const VehicleType& type, const Route& route) {
     return has_driving_rules(type) && route.driving == far;
+}
+
+bool may_save_more(const ProblemData& data, const Route& route) {
+    const VehicleType& type = data.type[route.type];
+    return idle_time(route) > 0 || is_dearer(data.rate[route.type], work_of(type, route)) ||
+           any_rest(type, route);
 }
 
 bool drive_by_rules(const ProblemData& data, Route& route, View<Stop, 1> stops,

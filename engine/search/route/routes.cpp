@@ -14,7 +14,6 @@
 #include "search/route/ends.h"
 #include "search/route/flown_trips.h"
 #include "search/route/lags.h"
-#include "search/route/least_cost.h"
 #include "search/route/rarer.h"
 #include "search/route/rest_placing.h"
 #include "search/route/resting.h"
@@ -155,7 +154,7 @@ bool load_trips(const ProblemData& data, Route& route, View<Stop, 1> stops, View
 bool drive_forward(const ProblemData& data, Route& route, View<Stop, 1> stops,
                    View<Sortie, 1> sorties) {
     const VehicleType& type = data.type[route.type];
-    if (!may_rest(type)) return drive_as_placed(data, route, stops, sorties);
+    if (!may_pause(type)) return drive_as_placed(data, route, stops, sorties);
     if (route.placed == breaks_by_end) return drive_by_rules(data, route, stops, sorties);
     return drive_as_placed(data, route, stops, sorties) &&
            (route.placed == breaks_left_out || !lacks_break(type, route, stops));
