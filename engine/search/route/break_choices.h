@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "search/route/best_begin.h"
+#include "search/route/breaks.h"
 #include "search/route/layout.h"
-#include "search/route/placed_breaks.h"
 
 namespace tandem {
 

@@ -15,7 +15,6 @@
 #include "search/route/freshness.h"
 #include "search/route/lags.h"
 #include "search/route/least_cost.h"
-#include "search/route/placed_breaks.h"
 #include "search/route/pricing.h"
 #include "search/route/rest_placing.h"
 #include "search/route/routes.h"

@@ -6,8 +6,8 @@
 #include <cstdint>
 #include <type_traits>
 
+#include "search/route/breaks.h"
 #include "search/route/layout.h"
-#include "search/route/placed_breaks.h"
 
 namespace tandem {
 

@@ -7,13 +7,11 @@
 #include <vector>
 
 #include "rules/leg.h"
-#include "search/route/best_rests.h"
 #include "search/route/block.h"
-#include "search/route/late_rests.h"
 #include "search/route/rarer.h"
 #include "search/route/rest_labels.h"
-#include "search/route/rest_legs.h"
 #include "search/route/rest_route.h"
+#include "search/route/rest_ways.h"
 #include "search/route/waits.h"
 
 namespace tandem {

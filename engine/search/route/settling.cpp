@@ -12,7 +12,6 @@
 #include "search/route/breaks.h"
 #include "search/route/freshness.h"
 #include "search/route/lags.h"
-#include "search/route/placed_breaks.h"
 #include "search/route/rarer.h"
 #include "search/route/rest_placing.h"
 #include "search/route/resting.h"

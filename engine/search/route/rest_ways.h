@@ -1,11 +1,13 @@
-// All ways along a leg that may be best, by the breaks and rests taken on it.
+// Ways along a route by the breaks and rests taken: on a leg all that may be best, and on the whole
+// those on which a driver rests as late as allowed, or while waiting. Mostly one of them is best.
 #pragma once
 
-#include "search/route/best_rests.h"
 #include "search/route/rest_labels.h"
+#include "search/route/rest_route.h"
 
 namespace tandem {
 
+// All ways along a leg that may be best.
 class RestLegs {
 public:
     RestLegs(const RestRoute& route, const BestRests& best, TakenRests& taken)
@@ -32,5 +34,9 @@ private:
     RestLabels* there_ = nullptr;
     Int kept_ = 0;  // labels
 };
+
+// Follow ways along a route without flights or orders, as late as allowed, until one is as good as
+// any can be. In place: `best`. Tell whether it is.
+bool rest_late(const RestRoute& route, BestRests& best, TakenRests& taken);
 
 }  // namespace tandem
