@@ -10,7 +10,7 @@ from app.formats.sheets.clocks import Style
 from app.formats.sheets.headings import HEADING, guesses, simple
 from app.formats.sheets.layout import Table
 from app.formats.sheets.links import is_link, place_of
-from app.formats.sheets.meanings import MEANINGS, MONEY, meaning_at
+from app.formats.sheets.meanings import MEANINGS, MONEY, PLACES, meaning_at
 from app.formats.sheets.numbers import own_unit
 from app.formats.sheets.readers import NO, ORDER_KINDS, YES, read, ticked_kind
 from app.formats.sheets.schemas import ColumnMapping
@@ -123,9 +123,13 @@ def _may_repeat(column: Column) -> bool:
 def with_begin(columns: Sequence[Column]) -> tuple[list[Column], list[Doubt]]:
     """Return columns of which one begins windows, if another ends them.
 
-    Some call `ready time` when the customer is, not the parcel.
+    Some call `ready time` when the customer is, not the parcel; where parcels are fetched, it is
+    theirs.
     """
     meanings = {column.meaning for column in columns}
+    if any(meaning_at("pickup", part) in meanings for place in PLACES for part in place) or (
+            meaning_at("pickup", "address") in meanings):
+        return list(columns), []
     if not {"ready", "latest"} <= meanings or meanings & {"earliest", "window"}:
         return list(columns), []
     changed = [replace(column, meaning="earliest")

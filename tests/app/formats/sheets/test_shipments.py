@@ -255,3 +255,12 @@ def test_coordinates_of_a_pickup_alone_are_the_customers_own() -> None:
     made = request(read('name,pickup coordinates,weight\nA,"45.764,4.8357",5\n',
                         depot="45.760,4.850", vehicles=2, capacity=[50], shift="8:00-18:00"))
     assert made["customers"][0]["location"] == [4.8357, 45.764]
+
+
+@pytest.mark.parametrize("heading", ["Ready at", "Ready time", "Bereit ab"])
+def test_a_parcel_is_ready_where_it_is_fetched(heading: str) -> None:
+    reply = read(f"Order,Pickup lat,Pickup lon,{heading},Delivery lat,Delivery lon,Deliver by\n"
+                 "1,48.1,11.5,9:00,48.2,11.6,12:00\n")
+    [shipment] = request(reply)["shipments"]
+    assert shipment["pickup"]["time_window"] == {"earliest": 32400}
+    assert shipment["delivery"]["time_window"] == {"earliest": 0, "latest": 43200}
