@@ -35,6 +35,10 @@ _BARE_HOUR, _BARE_HHMM = re.compile(r"\d{1,2}"), re.compile(r"\d{3,4}")
 _BARE_POINT, _BARE_MINUTES = re.compile(r"\d{1,2}[.,]\d{2}"), re.compile(r"\d{1,2}[.,][0-5]\d")
 _DATE = re.compile(r"(?P<date>\d{4}[-/.]\d{1,2}[-/.]\d{1,2}|\d{1,2}([./-])\d{1,2}\2\d{2,4})"
                    r"[T,\s]*+(?P<rest>.*+)")
+_DATES = re.compile(r"\d{4}-\d{1,2}-\d{1,2}|\d{1,2}([./-])\d{1,2}\1\d{2,4}")
+_WEEKDAY = re.compile(r"^[^\W\d_]{2,10}[.,]{0,2}\s(?=\d{1,4}[-./]\d{1,2}[-./]\d)")
+_BETWEEN_BEHIND = re.compile(
+    r"\s*+(?:[-\u2010-\u2015~]|\b(?:to|until|till|bis|al?|alle|tot|do|ate))\s*+$", re.IGNORECASE)
 _DATE_SIGNS = re.compile(r"[./-]")
 _SERIAL = re.compile(r"[3-7]\d{4}(?:[.,]\d{1,12})?")
 _ZONE = re.compile(r"(?<=\d)(Z|[+-]\d{2}:?\d{2})$", re.IGNORECASE)
@@ -116,7 +120,7 @@ def past_midnight(earliest: float | None, latest: float | None) -> float | None:
 def _text_clock(text: str, unit: str, style: Style) -> float:
     if found := _NEXT_DAY.fullmatch(text):
         return DAY + _text_clock(found["before"] or found["behind"], unit, style)
-    dated = _DATE.fullmatch(text)
+    dated = _DATE.fullmatch(_WEEKDAY.sub("", text))
     if dated and dated["rest"]:
         rest = _ZONE.sub("", dated["rest"])
         return _of_day(read_date(dated["date"], style), style) + _text_clock(rest, unit, style)
@@ -197,7 +201,10 @@ def _bounded(seconds: float, raw: Raw) -> float:
 
 def states_zone(text: str) -> bool:
     """Tell whether a text is a time of some time zone."""
-    return _DATE.fullmatch(text) is not None and _ZONE.search(text) is not None
+    found = _DATE.fullmatch(text)
+    # `11:00-12:00` behind a date is a window: times with zones have seconds, a T, or a plus.
+    return found is not None and _ZONE.search(text) is not None and (
+        "T" in text or "-" not in found["rest"] or found["rest"].count(":") > 2)
 
 
 def read_date(raw: Raw, style: Style) -> date:
@@ -214,7 +221,7 @@ def read_date(raw: Raw, style: Style) -> date:
         return raw
     if (serial := _serial(raw)) is not None:
         return serial.date()
-    if isinstance(raw, str) and (found := _DATE.fullmatch(raw)):
+    if isinstance(raw, str) and (found := _DATE.fullmatch(_WEEKDAY.sub("", raw))):
         parts = [int(part) for part in _DATE_SIGNS.split(found["date"])]
         if parts[0] < 1000:
             first, second, year = parts
@@ -288,6 +295,22 @@ def _begin_of(text: str) -> str | None:
 
 
 def _window(text: str, unit: str, style: Style) -> Window:
+    """Return one window; a date before it is that of both ends, unless the second has its own."""
+    text = _WEEKDAY.sub("", text)
+    dated = _DATE.fullmatch(text)
+    if dated is None or not _BETWEEN.search(dated["rest"]):
+        return _undated(text, unit, style)
+    if second := _DATES.search(dated["rest"]):
+        place = dated.start("rest") + second.start()
+        first = _BETWEEN_BEHIND.sub("", text[:place])
+        return clock(first, unit, style), clock(text[place:], unit, style)
+    since = _of_day(read_date(dated["date"], style), style)
+    earliest, latest = _undated(dated["rest"], unit, style)
+    return (None if earliest is None else _bounded(earliest + since, text),
+            None if latest is None else _bounded(latest + since, text))
+
+
+def _undated(text: str, unit: str, style: Style) -> Window:
     if (of_day := HALVES.get(simple(text))) is not None:
         return of_day
     if begin := _begin_of(text):

@@ -239,7 +239,7 @@ def _days_of_clocks(work: Import) -> list[date]:
     """Return the days that times state, if there is no column of days: the first of them."""
     days: set[date] = set()
     for column in work.columns:
-        if MEANINGS[column.meaning].kind == "clock":
+        if MEANINGS[column.meaning].kind in ("clock", "windows"):
             for _, raw in work.table.column(column.index):
                 try:
                     day = read(raw, "date", None, work.style)

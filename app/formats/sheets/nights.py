@@ -5,13 +5,16 @@ from operator import itemgetter
 from typing import Any
 
 from app.formats.sheets.cells import Doubt, clock_text, next_day
-from app.formats.sheets.clocks import DAY
+from app.formats.sheets.clocks import DAY, EVENING, LAST
 from app.formats.sheets.customers import Entry, disjoint
+
+SMALL_HOURS = 9 * 3600.0
+"""Until here a night's work lasts."""
 
 Data = dict[str, Any]
 
 
-def into_the_night(fleet: Iterable[Data], served: Iterable[Entry]) -> list[Doubt]:
+def into_the_night(fleet: Sequence[Data], served: Iterable[Entry]) -> list[Doubt]:
     """Move windows, and breaks, that end before any shift begins to the day after. In place.
 
     Only where somebody works then: other windows stay, and are warned of.
@@ -21,7 +24,10 @@ def into_the_night(fleet: Iterable[Data], served: Iterable[Entry]) -> list[Doubt
         for pause in kind.get("breaks", ()):
             if not pause.get("after_departure") and _is_after(pause.get("start", {}), *shift):
                 pause["start"] = _a_day_later(pause["start"])
+    served = list(served)
     opens, closes = min(opens for opens, _ in shifts), max(closes for _, closes in shifts)
+    if not any("shift" in kind for kind in fleet):
+        opens, closes = _night_of(served)
     moved = [(row, place) for entry in served for row, whole in entry.places()
              for place in _places(whole) if _move(place, opens, closes)]
     if not moved:
@@ -38,6 +44,21 @@ def _ends(kind: Data) -> tuple[float, float]:
     """Return when a shift begins, and ends; one without end says nothing of a night."""
     shift = kind.get("shift", {})
     return shift.get("earliest", 0.0), shift.get("latest") or 0.0
+
+
+def _night_of(served: Iterable[Entry]) -> tuple[float, float]:
+    """Return when work of a night begins and ends, by its windows; 0, 0: there is none.
+
+    All begin in the evening or end in the small hours, and some do each.
+    """
+    ends = [(window.get("earliest") or 0.0, window.get("latest") or LAST) for entry in served
+            for _, whole in entry.places() for place in _places(whole)
+            for window in _windows(place)]
+    evening = [earliest for earliest, _ in ends if earliest >= EVENING]
+    small = [latest for earliest, latest in ends if earliest < EVENING]
+    if not evening or not small or max(small) > SMALL_HOURS:
+        return 0.0, 0.0
+    return min(evening), LAST
 
 
 def _places(whole: Data) -> Iterator[Data]:

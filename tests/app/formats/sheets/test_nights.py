@@ -83,3 +83,41 @@ def test_windows_before_a_shift_of_the_day_stay(shift: str) -> None:
     assert reply.request is not None
     assert reply.request["customers"][0]["time_window"]["latest"] == 5400
     assert "NEXT_NIGHT" not in codes(reply)
+
+
+@pytest.mark.parametrize("cells", [
+    ("22:00,2:00", "1:00,5:00", "23:00,4:00"), ("20:00,23:30", "1:00,5:00", "22:00,24:00")])
+def test_windows_of_one_night_follow_each_other_where_no_shift_is_stated(
+        cells: tuple[str, ...]) -> None:
+    reply = read(*(f"{name},1,1,{cell}" for name, cell in zip("ABC", cells, strict=True)),
+                 head="name,x,y,from,to")
+    assert reply.request is not None
+    windows = [customer["time_window"] for customer in reply.request["customers"]]
+    assert windows[1] == {"earliest": 25 * 3600, "latest": 29 * 3600}
+    assert "NEXT_NIGHT" in codes(reply)
+
+
+def test_a_morning_among_windows_of_the_day_stays_in_the_morning() -> None:
+    reply = read("A,1,1,22:00,2:00", "B,1,1,1:00,5:00", "C,1,1,9:00,12:00",
+                 head="name,x,y,from,to")
+    assert reply.request is not None
+    assert reply.request["customers"][1]["time_window"] == {"earliest": 3600, "latest": 18000}
+
+
+@pytest.mark.parametrize("cell", [
+    "2026-06-10 09:00 - 10:00", "2026-06-10 09:00-10:00", "2026-06-10 09:00-2026-06-10 10:00",
+    "10.06.2026 9-10", "10.06.2026, 9-10 Uhr", "Mi 10.06.2026 9:00-10:00",
+    "Wed, 2026-06-10 9:00 to 10:00", "06/10/2026 9:00 AM-10:00 AM"])
+def test_a_window_has_its_date_inside_its_cell(cell: str) -> None:
+    reply = read(f'A,1,1,"{cell}"', f'B,2,2,"{cell}"', head="name,x,y,window")
+    assert reply.request is not None, reply.errors
+    assert reply.request["customers"][0]["time_window"] == {"earliest": 32400, "latest": 36000}
+    assert reply.day == "2026-06-10"
+    assert "ZONE_NOT_READ" not in codes(reply)
+
+
+def test_a_window_of_the_day_after_counts_from_the_day_that_is_planned() -> None:
+    reply = read("A,1,1,2026-06-10 09:00-10:00", "B,2,2,2026-06-11 01:00-02:00",
+                 head="name,x,y,window")
+    assert reply.request is not None, reply.errors
+    assert reply.request["customers"][1]["time_window"] == {"earliest": 90000, "latest": 93600}
