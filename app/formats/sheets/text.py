@@ -9,7 +9,8 @@ from dataclasses import dataclass
 from charset_normalizer import from_bytes
 
 from app.formats.sheets.cells import Raw, tidy
-from app.formats.sheets.headings import LONGEST_HEADING, SURE, is_known
+from app.formats.sheets.headings import LONGEST_HEADING, SURE, guesses, is_known
+from app.formats.sheets.words import LETTERS
 
 DELIMITERS = (";", "\t", ",", "|")
 
@@ -23,6 +24,13 @@ SAMPLED_ROWS = 100
 
 HEADING_LINES = 10
 """Lines within which headings are looked for, to tell encodings apart."""
+
+MOST_STRANGE = 0.1
+"""Share of letters that may be of other languages, as in names."""
+
+USUAL_SIGNS = frozenset("\u20ac\u00b0\u00b2\u00b3\u00a0\u00ab\u00bb"
+                        "\u2013\u2014\u2018\u2019\u201c\u201d\u201e\u2026")
+"""Of all languages."""
 
 EQUALLY_GOOD = 0.02
 """Difference of `charset_normalizer`'s chaos that tells nothing."""
@@ -89,26 +97,36 @@ def _encoding_of(content: bytes) -> tuple[str, bool]:
         return "utf-8", False
     except UnicodeDecodeError:
         pass
-    found = [(match.chaos, alike.encoding)
+    found = {alike.encoding: match.chaos
              for match in from_bytes(head, cp_isolation=list(ENCODINGS))
-             for alike in (match, *match.submatch) if alike.encoding in ENCODINGS]
-    least = min((chaos for chaos, _ in found), default=0.0)
+             for alike in (match, *match.submatch) if alike.encoding in ENCODINGS}
+    least = min(found.values(), default=0.0)
 
-    def rank(candidate: tuple[float, str]) -> tuple[int, bool, int]:
-        chaos, name = candidate
-        return -_known_words(head, name), chaos > least + EQUALLY_GOOD, ENCODINGS.index(name)
+    def rank(name: str) -> tuple[int, bool, bool, int]:
+        known, is_strange = _sense_in(head, name)
+        return -known, is_strange, found[name] > least + EQUALLY_GOOD, ENCODINGS.index(name)
 
-    return min(found, key=rank, default=(0.0, ENCODINGS[0]))[1], True
+    return min(found, key=rank, default=ENCODINGS[0]), True
 
 
-def _known_words(head: bytes, encoding: str) -> int:
+def _sense_in(head: bytes, encoding: str) -> tuple[int, bool]:
     """Return how many cells of the first lines are headings that are known word by word.
 
-    In a short file letters tell little; words that make sense tell more.
+    In a short file letters tell little; words that make sense tell more. Beside it, whether there
+    are letters that the languages of these headings don't have.
     """
-    lines = head.decode(encoding, errors="replace").splitlines()[:HEADING_LINES]
-    cells = {cell.strip(' "') for line in lines for cell in _SIGNS.split(line)}
-    return sum(len(cell) <= LONGEST_HEADING and is_known(cell, SURE) for cell in cells)
+    text = head.decode(encoding, errors="replace")
+    cells = {cell.strip(' "') for line in text.splitlines()[:HEADING_LINES]
+             for cell in _SIGNS.split(line)}
+    known = [cell for cell in cells if len(cell) <= LONGEST_HEADING and is_known(cell, SURE)]
+    spoken = Counter(guess.language for cell in known for guess in guesses(cell)
+                     if guess.score == SURE and guess.language in LETTERS)
+    most = max(spoken.values(), default=0)
+    usual = {sign for language, count in spoken.items() if count == most
+             for sign in LETTERS[language][0]}
+    others = [sign for sign in text.lower() if sign >= "\x80" and sign not in USUAL_SIGNS]
+    strange = sum(sign not in usual for sign in others)
+    return len(known), bool(usual) and strange > MOST_STRANGE * len(others)
 
 
 def _stated_delimiter(text: str) -> tuple[str | None, str]:

@@ -39,6 +39,7 @@ KIND_STEMS: Listed = _FILE["kinds"]
 STATE_WORDS: Listed = _FILE["states"]
 WINDOW_WORDS: Listed = _FILE["windows"]
 CELL_WORDS: Listed = _FILE["cells"]
+LETTERS: Listed = _FILE["letters"]
 UNIT_WORDS: Listed = _FILE["units"]
 
 

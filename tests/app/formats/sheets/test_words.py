@@ -7,12 +7,14 @@ import pytest
 
 from app.formats.sheets import words
 from app.formats.sheets.clocks import Style, windows
+from app.formats.sheets.importing import import_file
 from app.formats.sheets.headings import SURE, guesses, simple, unit_named
 from app.formats.sheets.readers import read
+from app.formats.sheets.schemas import ImportSettings
 from app.formats.sheets.sides import sides_of
 from app.formats.sheets.words import Listed
 
-LANGUAGES = {"en", "de", "fr", "es", "it", "nl", "pl", "pt"}
+LANGUAGES = {"en", "de", "fr", "es", "it", "nl", "pl", "pt", "tr", "cs", "hu"}
 
 HEADED: list[tuple[str, Listed]] = [*words.COLUMNS.items(), ("window", words.WINDOW)]
 
@@ -83,3 +85,33 @@ def test_words_of_other_places_are_found(side: str, other: str) -> None:
     for word in words.SIDE_WORDS[side]:
         found = sides_of([f"{word} town", other], [False, False])[0]
         assert (found.name, found.found[0].meaning) == (side, "town"), word
+
+
+TURKISH = "Müşteri;Enlem;Boylam;Ağ\u0131rl\u0131k (kg);Teslimat Başlang\u0131ç;Teslimat Bitiş;Süre (dk)"
+CZECH = "Název;Zeměpisná šířka;Zeměpisná délka;Hmotnost (kg);Od;Do;Doba vykládky (min)"
+HUNGARIAN = "Név;Szélesség;Hosszúság;Súly (kg);Kezdés;Befejezés;Lerakodási idő (perc)"
+BRAZILIAN = "Razão social;Latitude;Longitude;Peso bruto (kg);Início;Fim;Tempo de parada (min)"
+
+
+@pytest.mark.parametrize(("headings", "name", "encoding"), [
+    (TURKISH, "İşçi Ağaoğlu", "cp1254"), (TURKISH, "İşçi Ağaoğlu", "utf-16-le"),
+    (CZECH, "Šesták Žofie", "cp1250"), (HUNGARIAN, "Tűzoltó Őrs", "cp1250"),
+    (BRAZILIAN, "Padaria São João", "mac_roman"), (BRAZILIAN, "Padaria São João", "cp1252"),
+    (HUNGARIAN, "Tűzoltó Őrs", "utf-16-be")])
+def test_sheets_are_read_in_their_languages_and_encodings(headings: str, name: str,
+                                                          encoding: str) -> None:
+    content = f"{headings}\n{name};40,9;28,9;75,1;9:00;12:00;5\nB;41,1;28,8;43;9:00;13:00;10\n"
+    reply = import_file(content.encode(encoding), ImportSettings())
+    assert reply.request is not None, reply.errors
+    first = reply.request["customers"][0]
+    assert (first["id"], first["location"], first["demand"]) == (name, [28.9, 40.9], [75.1])
+    assert (first["time_window"], first["service_duration"]) == (
+        {"earliest": 32400, "latest": 43200}, 300)
+
+
+@pytest.mark.parametrize(("name", "encoding"), [
+    ("Булочная на Невском проспекте", "cp1251"), ("Bäckerei Größ", "cp1252")])
+def test_names_of_other_languages_than_the_headings_leave_the_encoding(name: str,
+                                                                       encoding: str) -> None:
+    content = "Name;Adresse;Lat;Lon\n" + f"{name};{name};40.9;28.9\n" * 30
+    assert import_file(content.encode(encoding), ImportSettings()).encoding == encoding
