@@ -251,7 +251,10 @@ def _fit(cells: Sequence[Raw], column: Column, style: Style) -> float:
     """Return the share of cells that say what the column is taken for."""
     kind = MEANINGS[column.meaning].kind
     if column.meaning == "name":
-        return 0.7 + 0.3 * sum(any(map(str.isalpha, shown(raw))) for raw in cells) / len(cells)
+        return 0.7 + (0.2 * sum(any(map(str.isalpha, shown(raw))) for raw in cells)
+                      + 0.1 * len(set(map(shown, cells)))) / len(cells)
+    if column.meaning.endswith("phone"):
+        return sum(any(map(str.isdigit, shown(raw))) for raw in cells) / len(cells)
     if column.meaning in ("status", "region"):
         return _fit_words(cells, column.meaning, column.heading)
     if kind == "text":

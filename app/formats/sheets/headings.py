@@ -9,7 +9,7 @@ from functools import cache, lru_cache
 from app.formats.sheets.meanings import (
     CLOCK_UNITS, DURATION_UNITS, MASSES, MEANINGS, MONEY, PRICES, UNITS, VOLUMES, Kind,
 )
-from app.formats.sheets.words import ACTS, BEGIN, COLUMNS, END, WHOLE, WINDOW
+from app.formats.sheets.words import ACTS, BEGIN, COLUMNS, END, EVENTS, WHOLE, WINDOW
 
 SURE = 1.0
 HEADING = 0.66
@@ -188,6 +188,10 @@ def _phrases() -> dict[tuple[str, ...], list[tuple[int, str, str]]]:
     """Return the meanings and languages of all phrases, as words, each with its place."""
     listed = [(phrase, meaning, language) for meaning, languages in COLUMNS.items()
               for language, phrases in languages.items() for phrase in phrases]
+    for meaning, ends in (("latest", BEGIN), ("earliest", END)):
+        listed += [(text, meaning, language) for language, events in EVENTS.items()
+                   for event in events for word in ends[language]
+                   for text in (f"{event} {word}", f"{word} {event}", f"{event} {word} at")]
     for meaning, ends in (("earliest", BEGIN), ("latest", END)):
         for language, phrases in ends.items():
             for word in phrases:

@@ -144,8 +144,20 @@ def _serve(work: Import, entries: Sequence[Entry], refused: frozenset[int],
     work.stops, doubts = together(own, settings.mapping.same_place)
     told, wrong = add_alternatives(others, work.stops, stops_called(work.stops), refused)
     work.shipments, errors = shipments_of(entries)
-    work.doubts += doubts + told
+    work.doubts += doubts + told + _unused_rides(own)
     work.errors += wrong + errors
+
+
+def _unused_rides(own: Sequence[Entry]) -> list[Doubt]:
+    """Return the doubt about the longest ride of who isn't fetched elsewhere."""
+    stated = [row for entry in own for row in entry.rows
+              if row.get("max_between") is not None or row.get("max_detour") is not None]
+    if not stated:
+        return []
+    cell = stated[0].cell("max_between", "max_detour")
+    return [Doubt("RIDE_UNUSED", f"{len(stated)} rows state the longest ride, such as {cell}, and "
+                  "have one place: say where each is fetched, or nothing is made of it.",
+                  cell=cell)]
 
 
 def _complete(work: Import, depots: Sequence[Row], ground: TableGeography, settings: ImportSettings,

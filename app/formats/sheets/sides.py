@@ -7,9 +7,9 @@ from itertools import pairwise
 from app.formats.sheets.headings import (
     HEADING, LONGEST_LOOK, MOST_LOOKED_AT, SURE, HeadingGuess, guesses, simple,
 )
-from app.formats.sheets.meanings import OF_PICKUPS, OF_SIDES, meaning_at
+from app.formats.sheets.meanings import OF_PICKUPS, OF_SIDES, PLACES, meaning_at
 from app.formats.sheets.words import (
-    BARE_END_WORDS, END_WORDS, PLACE_WORDS, SIDE_STEMS, SIDE_WORDS, meant,
+    BARE_END_WORDS, DESTINATIONS, END_WORDS, PLACE_WORDS, SIDE_STEMS, SIDE_WORDS, meant,
 )
 
 OWN, DELIVERY, PICKUP, ALTERNATIVE = "", "delivery", "pickup", "alternative"
@@ -49,6 +49,7 @@ def sides_of(headings: Sequence[str], are_points: Sequence[bool]) -> list[Side]:
     """
     sides = [_end(heading) if is_point and simple(heading) in BARE_ENDS else _side(heading)
              for heading, is_point in zip(headings, are_points, strict=True)]
+    sides = _with_destinations(headings, sides)
     own = any(_is_place(guess) for heading, side in zip(headings, sides, strict=True)
               for guess in (side.found if side.name == DELIVERY else guesses(heading)[:2])
               if side.name in (OWN, DELIVERY))
@@ -66,6 +67,33 @@ def guesses_at(heading: str, side: Side) -> tuple[HeadingGuess, ...]:
         return side.found
     return tuple(replace(guess, meaning=meaning_at(side.name, guess.meaning))
                  for guess in side.found)
+
+
+def _with_destinations(headings: Sequence[str], sides: list[Side]) -> list[Side]:
+    """Return sides of which a place that is a school's is the delivery's, and the row's own whence.
+
+    As they are where either isn't a whole place, or the pickup is stated.
+    """
+    if any(side.name == PICKUP and any(map(_is_place, side.found)) for side in sides):
+        return sides
+    places: dict[str, dict[int, Side]] = {PICKUP: {}, DELIVERY: {}}
+    for index, (heading, side) in enumerate(zip(headings, sides, strict=True)):
+        words = _words(heading)
+        rest = [word for word in words if word not in DESTINATIONS]
+        found = guesses(" ".join(rest))
+        name = PICKUP if rest == words else DELIVERY
+        if side.name == OWN and found and found[0].score >= HEADING and (
+                found[0].meaning in PLACE | {"house_number"}):
+            places[name][index] = Side(name, found)
+    if not all(_is_whole(sides) for sides in places.values()):
+        return sides
+    return [places[PICKUP].get(index) or places[DELIVERY].get(index) or side
+            for index, side in enumerate(sides)]
+
+
+def _is_whole(found: dict[int, Side]) -> bool:
+    meanings = {side.found[0].meaning for side in found.values()}
+    return any(place <= meanings for place in PLACES) or bool(meanings & {"address", "street"})
 
 
 def _is_place(guess: HeadingGuess) -> bool:

@@ -21,6 +21,8 @@ END: Listed = _FILE["end"]
 """Of windows, by language."""
 ACTS: Listed = _FILE["acts"]
 """What is done at a stop: with `BEGIN` and `END`, when it may begin and must."""
+EVENTS: Listed = _FILE["events"]
+"""With `BEGIN`, when one must be there at the latest; with `END`, when one may leave."""
 WHOLE: Listed = _FILE["whole"]
 """Headings, by meaning, that say something else within longer ones."""
 
@@ -31,6 +33,7 @@ VAN_HEADINGS: Listed = _FILE["vehicles"]
 PLAN_NAMES: Listed = _FILE["plan"]
 MEASURES: Listed = _FILE["measures"]
 SIDE_WORDS: Listed = _FILE["sides"]
+DESTINATIONS = frozenset(_FILE["destinations"]["words"])
 SIDE_STEMS: Listed = _FILE["stems"]
 END_WORDS: Listed = _FILE["ends"]
 BARE_END_WORDS: Listed = _FILE["bare_ends"]

@@ -75,3 +75,26 @@ def test_numbers_of_days_are_times_of_the_day_and_no_amounts(begin: str, end: st
     assert reply.request is not None
     assert [customer["time_window"] for customer in reply.request["customers"]] == [
         {"earliest": 32400, "latest": 43200}, {"earliest": 43200, "latest": 64800}]
+
+
+@pytest.mark.parametrize("heading", ["Mobility", "Mobility type", "Mobilität", "Mobilité"])
+def test_mobility_is_a_skill_and_no_telephone(heading: str) -> None:
+    reply = read(f"name,lat,lon,{heading},Phone", "Anna,48.1,11.5,WC,555 0101",
+                 "Ben,48.2,11.6,AMB,555 0102", "Cy,48.2,11.6,STR,555 0103")
+    assert reply.request is not None
+    first = reply.request["customers"][0]
+    assert (first["skills"], first["info"]["phone"]) == (["WC"], "555 0101")
+
+
+@pytest.mark.parametrize("head", ["id,title", "title,id", "ID,Titel", "Title,Name"])
+def test_a_number_or_a_courtesy_beside_a_name_is_not_the_name(head: str) -> None:
+    rows = [("17", "Bakery"), ("18", "Cafe"), ("19", "Shop")]
+    if head == "Title,Name":
+        rows = [("Ms", "Bakery"), ("Mr", "Cafe"), ("Mr", "Shop")]
+    elif head == "title,id":
+        rows = [(name, number) for number, name in rows]
+    reply = read(f"{head},lat,lon", *(f"{first},{second},48.1,11.{place}" for place, (
+        first, second) in enumerate(rows)))
+    assert reply.request is not None
+    assert [customer["id"] for customer in reply.request["customers"]] == [
+        "Bakery", "Cafe", "Shop"]

@@ -264,3 +264,33 @@ def test_a_parcel_is_ready_where_it_is_fetched(heading: str) -> None:
     [shipment] = request(reply)["shipments"]
     assert shipment["pickup"]["time_window"] == {"earliest": 32400}
     assert shipment["delivery"]["time_window"] == {"earliest": 0, "latest": 43200}
+
+
+@pytest.mark.parametrize("headings", [
+    "Kind,Breite,Länge,Schule,Schule Breite,Schule Länge,Schulbeginn,Max. Fahrzeit (min),Rollstuhl",
+    "Child,Home lat,Home lon,School,School lat,School lon,School begins at,Longest ride (min),"
+    "Wheelchair",
+    "Élève,Latitude,Longitude,École,École latitude,École longitude,École début,Trajet max (min),"
+    "Fauteuil roulant"])
+def test_children_are_at_school_before_it_begins(headings: str) -> None:
+    reply = read(f"{headings}\nAnn,48.1,11.5,Park,48.2,11.6,8:00,45,x\n"
+                 "Bob,48.11,11.51,Park,48.2,11.6,8:15,45,\n")
+    first, second = request(reply)["shipments"]
+    assert (first["id"], first["amount"], first["max_time_between"]) == ("Ann", [1], 2700)
+    assert first["pickup"]["location"] == [11.5, 48.1]
+    assert (first["delivery"]["location"], first["delivery"]["time_window"]) == (
+        [11.6, 48.2], {"earliest": 0, "latest": 28800})
+    assert first["skills"] == [headings.split(",")[-1]]
+    assert "skills" not in second
+
+
+def test_they_leave_school_after_it_ends() -> None:
+    for heading in ("School ends", "Schulschluss", "Fin cours"):
+        reply = read(f"Name,Lat,Lon,{heading}\nAnn,48.1,11.5,13:00\n")
+        assert request(reply)["customers"][0]["time_window"] == {"earliest": 46800}
+
+
+def test_a_longest_ride_without_a_second_place_is_told() -> None:
+    reply = read("Name,Lat,Lon,Longest ride (min)\nAnn,48.1,11.5,45\n")
+    assert [doubt.cell for doubt in reply.doubts if doubt.code == "RIDE_UNUSED"] == ["D2"]
+    assert not [doubt for doubt in read(ENGLISH).doubts if doubt.code == "RIDE_UNUSED"]

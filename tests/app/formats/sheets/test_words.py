@@ -87,7 +87,8 @@ def test_words_of_other_places_are_found(side: str, other: str) -> None:
         assert (found.name, found.found[0].meaning) == (side, "town"), word
 
 
-TURKISH = "Müşteri;Enlem;Boylam;Ağ\u0131rl\u0131k (kg);Teslimat Başlang\u0131ç;Teslimat Bitiş;Süre (dk)"
+TURKISH = ("Müşteri;Enlem;Boylam;Ağ\u0131rl\u0131k (kg);"
+           "Teslimat Başlang\u0131ç;Teslimat Bitiş;Süre (dk)")
 CZECH = "Název;Zeměpisná šířka;Zeměpisná délka;Hmotnost (kg);Od;Do;Doba vykládky (min)"
 HUNGARIAN = "Név;Szélesség;Hosszúság;Súly (kg);Kezdés;Befejezés;Lerakodási idő (perc)"
 BRAZILIAN = "Razão social;Latitude;Longitude;Peso bruto (kg);Início;Fim;Tempo de parada (min)"
