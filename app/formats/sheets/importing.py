@@ -35,6 +35,7 @@ from app.formats.sheets.shipments import shipments_of
 from app.formats.sheets.styles import encoding_doubt, style_of
 from app.formats.sheets.table import NotASheetError, SheetFile, read_sheets
 from app.formats.sheets.vans import vans_of
+from app.formats.sheets.weekdays import of_weekday
 from app.formats.sheets.work import Import
 from app.schemas.limits import MAX_CUSTOMERS
 
@@ -73,11 +74,14 @@ def _columns(file: SheetFile, settings: ImportSettings) -> tuple[Import, Chosen]
     table, rejoining, cut = rejoined(found.table, file.delimiter)
     table = without_hidden(table, asking)
     style, doubts = style_of(table, file, settings)
-    stated = stated_columns(table, mapping, asking)
+    of_day = of_weekday(table, style, asking)
+    table = of_day.table
+    stated = [*of_day.stated, *stated_columns(table, mapping, asking)]
     columns, more = with_begin(columns_of(table, style, stated))
     columns = with_looks(table, columns)
     ask_columns(table, columns, style, asking)
-    work = Import(table, style, columns, asking, doubts=rejoining + doubts + more, errors=cut)
+    work = Import(table, style, columns, asking, doubts=rejoining + doubts + more + of_day.doubts,
+                  errors=cut + of_day.errors)
     if file.is_guessed:
         work.doubts.append(encoding_doubt(file, table))
     if not table.header_rows:
