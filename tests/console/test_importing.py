@@ -245,3 +245,8 @@ def test_an_import_needs_no_mouse(page: Page) -> None:
     dialog(page)
     page.keyboard.press("Escape")
     expect(page.get_by_role("dialog")).to_have_count(0)
+
+
+def test_all_that_can_be_read_can_be_chosen(page: Page) -> None:
+    listed = page.locator("#file-input").get_attribute("accept") or ""
+    assert {".gpx", ".kmz", ".kml", ".xml", ".csv", ".xlsx", ".geojson"} <= set(listed.split(","))

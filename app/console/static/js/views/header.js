@@ -13,6 +13,8 @@ import { openFile } from './files.js';
 import { LanguageChoice } from './language-choice.js';
 import { ProblemName } from './problem-name.js';
 
+const OPENED = '.json,.csv,.tsv,.txt,.xlsx,.xlsm,.xlsb,.xls,.ods,.html,.htm,.xml,.kml,.kmz,.gpx,'
+  + '.geojson';
 const SHEET = new URL('../../examples/working-day.xlsx', import.meta.url).href;
 const ICON = new URL('../../icon.svg', import.meta.url).href;
 
@@ -84,7 +86,7 @@ function Opener() {
     <button type="button" id="saved-plans" onClick=${openPlans}>
       ${t('header.saved')}</button>
     <input type="file" hidden ref=${input} id="file-input" aria-label=${t('header.fileInput')}
-      accept=".json,.csv,.tsv,.txt,.xlsx,.xlsm,.xlsb,.xls,.ods,.html,.htm,.kml,.geojson"
+      accept=${OPENED}
       onChange=${(event) => {
         openFile(event.target.files[0]);
         event.target.value = '';
