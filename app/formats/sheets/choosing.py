@@ -45,7 +45,7 @@ def chosen(file: SheetFile, mapping: Mapping, asking: Questionnaire,
     header = None if mapping.header_row is None else mapping.header_row - 1
     table, fleet, rules = table_of(main, header), None, None
     for sheet in file.sheets[:MOST_ASKED]:
-        count = sum(any(raw is not None for raw in row) for row in sheet.rows)
+        count = len(table_of(sheet).rows)
         is_main = sheet is main
         if not count or (is_main and asking.given.get(_id_of(sheet)) != INSTEAD):
             continue

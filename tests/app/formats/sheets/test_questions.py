@@ -121,6 +121,7 @@ def test_another_days_sheet_is_asked_about_and_read_as_well_or_instead() -> None
     reply = imported(workbook(fill))
     question = asked(reply, "sheet")
     assert (question.id, question.default) == ("sheet:Dienstag", "ignored")
+    assert question.values["count"] == 1  # its heading is no customer
     assert names(reply) == ["Anna", "Ben", "Cleo"]
     both = imported(workbook(fill), {question.id: "also"})
     assert names(both) == ["Anna", "Ben", "Cleo", "Dora"]
