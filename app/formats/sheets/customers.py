@@ -27,7 +27,7 @@ SAME_CELLS = ("preferred_vehicles", "preference_cost", "vehicle_costs", "togethe
               "alternative_cost", *(meaning_at("alternative", own) for own in OF_SIDES))
 """What rows must agree on to be one stop, of customers and as cells say it."""
 
-CARRIED = ("phone", "email", "contact", "notes", "priority")
+CARRIED = ("phone", "email", "contact", "notes", "priority", "layer")
 
 Data = dict[str, Any]
 

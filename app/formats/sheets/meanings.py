@@ -84,6 +84,7 @@ MEANINGS = {
     "max_detour": Meaning("Longest way to delivery, as a multiple of the direct one", "number"),
     "alternative_to": Meaning("Other place of (customer)", "text"),
     "alternative_cost": Meaning("Cost of the other place", "number"),
+    "layer": Meaning("Layer or folder, such as Depot", "text"),
     "kind": Meaning("Delivery, pickup or depot", "kind"),
     "status": Meaning("State of the order, such as cancelled", "text"),
     "phone": Meaning("Phone", "text", repeats=True),

@@ -50,6 +50,8 @@ class Row:
         """Whether it states where trips begin and end."""
         if self.get("kind") is not None:
             return bool(self.get("kind") == DEPOT)
+        if simple(str(self.get("layer") or "")) in DEPOTS:
+            return True
         return simple(str(self.get("name") or "")) in DEPOTS and not any(self.get("demand") or ())
 
 

@@ -248,3 +248,15 @@ def test_amounts_may_be_counted_in_any_word() -> None:
     assert [customer["demand"] for customer in customers(reply)] == [[3], [2]]
     assert reply.request is not None
     assert reply.request["load_dimensions"] == [{"name": "Menge", "unit": "Kisten"}]
+
+
+def test_points_of_a_layer_of_depots_are_depots() -> None:
+    layers = {"Depot": [("Werk Nord", 11.5)], "Montag": [("A", 11.6), ("B", 11.7)]}
+    folders = "".join(f"<Folder><name>{layer}</name>" + "".join(
+        f"<Placemark><name>{name}</name><Point><coordinates>{lon},48.1</coordinates></Point>"
+        "</Placemark>" for name, lon in points) + "</Folder>" for layer, points in layers.items())
+    reply = import_file(f"<kml><Document>{folders}</Document></kml>".encode(), ImportSettings())
+    assert reply.request is not None
+    assert [depot["location"] for depot in reply.request["depots"]] == [[11.5, 48.1]]
+    assert [customer["id"] for customer in reply.request["customers"]] == ["A", "B"]
+    assert "DEPOT_IN_FILE" in [doubt.code for doubt in reply.doubts]
