@@ -13,6 +13,11 @@ from app.formats.sheets.sides import ALTERNATIVE
 
 SHIPMENTS, APART = "shipments", "apart"
 
+OF_OUTWARD = ("name", "earliest", "latest", "window")
+"""What a place is told of the way there alone."""
+
+OF_PICKUP_COLUMNS = tuple(meaning_at(PICKUP, meaning) for meaning in OF_PICKUPS)
+
 Whole = Mapping[str, Sequence[Row]]
 
 
@@ -26,6 +31,7 @@ def divided(rows: Sequence[Row], num_rows: int,
         Of the sheet: places beside a row's own are rows behind those, by number.
     """
     found: list[Row] = []
+    backs: list[Row] = []
     for row in rows:
         for nth, (side, meanings) in enumerate(((PICKUP, OF_PICKUPS), (ALTERNATIVE, OF_SIDES)), 1):
             other = _other_place(row, side, meanings, nth * num_rows + row.number)
@@ -33,16 +39,37 @@ def divided(rows: Sequence[Row], num_rows: int,
                 found.append(other)
                 if side == PICKUP:
                     row.side, row.whole = DELIVERY, row.number
+                    backs += _ride_back(row, other, num_rows)
         found.append(row)
     open_rows = [row for row in found if not row.side and row.get("kind") != DEPOT]
     doubts, errors = _paired(_called(open_rows, "shipment"))
+    if backs:
+        cell = backs[0].cell("back_from")
+        doubts.append(Doubt("RIDES_BACK", f"{len(backs) // 2} rows state a ride back, such as "
+                            f"{cell}: each is a shipment of its own, the other way.", cell=cell))
     orders = {name: alike for name, alike in _called(
         [row for row in open_rows if not row.side], "order").items()
         if {PICKUP, DELIVERY} <= {row.get("kind") for row in alike}}
     if orders and _are_shipments(orders, asking):
         more = _paired(orders)
         doubts, errors = doubts + more[0], errors + more[1]
-    return found, doubts, errors
+    return [*found, *backs], doubts, errors
+
+
+def _ride_back(row: Row, fetched: Row, num_rows: int) -> list[Row]:
+    """Return rows for both ends of the way back from a row's delivery; none: it states no time."""
+    begins = row.get("back_from")
+    if begins is None:
+        return []
+    whole = -1 - row.number  # of no row's own shipment
+    common = {meaning: value for meaning, value in row.values.items()
+              if meaning == "name" or meaning not in (*OF_SIDES, "ready", *OF_PICKUP_COLUMNS)}
+    here, there = ({meaning: value for meaning, value in end.values.items()
+                    if meaning in OF_SIDES and meaning not in OF_OUTWARD} for end in (row, fetched))
+    return [Row(3 * num_rows + row.number, row.first, here | {"earliest": [begins]},
+                row.cells, side=PICKUP, whole=whole),
+            Row(4 * num_rows + row.number, row.first, common | there,
+                row.cells | fetched.cells, side=DELIVERY, whole=whole)]
 
 
 def _other_place(row: Row, side: str, meanings: Sequence[str], number: int) -> Row | None:

@@ -40,6 +40,10 @@ from app.formats.sheets.work import Import
 from app.schemas.limits import MAX_CUSTOMERS
 
 
+OF_RIDES = ("max_between", "max_detour", "back_from")
+"""What rows say of rides, which have two places."""
+
+
 def import_file(content: bytes, settings: ImportSettings, finder: Finder = NO_FINDER,
                 road_profiles: Collection[str] = ()) -> ImportReply:
     """Return what a file says and what became of it.
@@ -155,12 +159,13 @@ def _serve(work: Import, entries: Sequence[Entry], refused: frozenset[int],
 def _unused_rides(own: Sequence[Entry]) -> list[Doubt]:
     """Return the doubt about the longest ride of who isn't fetched elsewhere."""
     stated = [row for entry in own for row in entry.rows
-              if row.get("max_between") is not None or row.get("max_detour") is not None]
+              if any(row.get(meaning) is not None for meaning in OF_RIDES)]
     if not stated:
         return []
-    cell = stated[0].cell("max_between", "max_detour")
-    return [Doubt("RIDE_UNUSED", f"{len(stated)} rows state the longest ride, such as {cell}, and "
-                  "have one place: say where each is fetched, or nothing is made of it.",
+    cell = stated[0].cell(*(meaning for meaning in OF_RIDES
+                            if stated[0].get(meaning) is not None))
+    return [Doubt("RIDE_UNUSED", f"{len(stated)} rows state a ride, such as {cell}, and have "
+                  "one place: say where each is fetched, or nothing is made of it.",
                   cell=cell)]
 
 

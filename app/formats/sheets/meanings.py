@@ -82,6 +82,7 @@ MEANINGS = {
     "shipment": Meaning("Shipment, named in the rows of both its ends", "text"),
     "max_between": Meaning("Longest time from pickup to delivery", "duration", DURATION_UNITS),
     "max_detour": Meaning("Longest way to delivery, as a multiple of the direct one", "number"),
+    "back_from": Meaning("Ride back begins", "clock", CLOCK_UNITS),
     "alternative_to": Meaning("Other place of (customer)", "text"),
     "alternative_cost": Meaning("Cost of the other place", "number"),
     "layer": Meaning("Layer or folder, such as Depot", "text"),

@@ -146,6 +146,7 @@ export default {
       max_lag: 'Höchstabstand der beiden einer Reihenfolge',
       shipment: 'Sendung, genannt bei Abholung und Zustellung',
       max_between: 'Höchste Zeit von Abholung bis Zustellung',
+      back_from: 'Rückfahrt ab',
       layer: 'Ebene oder Ordner, etwa Depot',
       max_detour: 'Längster Weg zur Lieferung, als Vielfaches des direkten',
       alternative_to: 'Anderer Ort von (Kunde)',

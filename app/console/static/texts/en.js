@@ -133,6 +133,7 @@ export default {
       max_lag: 'Longest time between the two of an order',
       shipment: 'Shipment, named in the rows of both its ends',
       max_between: 'Longest time from pickup to delivery',
+      back_from: 'Ride back begins',
       layer: 'Layer or folder, such as Depot',
       max_detour: 'Longest way to delivery, as a multiple of the direct one',
       alternative_to: 'Other place of (customer)',

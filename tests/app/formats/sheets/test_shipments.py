@@ -294,3 +294,19 @@ def test_a_longest_ride_without_a_second_place_is_told() -> None:
     reply = read("Name,Lat,Lon,Longest ride (min)\nAnn,48.1,11.5,45\n")
     assert [doubt.cell for doubt in reply.doubts if doubt.code == "RIDE_UNUSED"] == ["D2"]
     assert not [doubt for doubt in read(ENGLISH).doubts if doubt.code == "RIDE_UNUSED"]
+
+
+@pytest.mark.parametrize("heading", ["Return time", "Rückfahrt", "Hora de vuelta", "Trajet retour"])
+def test_a_ride_back_in_the_row_is_a_shipment_of_its_own(heading: str) -> None:
+    reply = read(f"Passenger,Pickup lat,Pickup lon,Dropoff lat,Dropoff lon,Deliver by,{heading},"
+                 "Seats,Mobility\nAnn,48.1,11.5,48.2,11.6,9:00,11:30,2,WC\n"
+                 "Bob,48.1,11.5,48.2,11.6,10:00,,1,\n", mapping={"columns": [
+                     {"heading": "Seats", "meaning": "demand"}]})
+    out, other, back = request(reply)["shipments"]
+    assert (out["id"], other["id"], back["id"]) == ("Ann", "Bob", "Ann (2)")
+    assert [back[end]["location"] for end in ("pickup", "delivery")] == [[11.6, 48.2], [11.5, 48.1]]
+    assert back["pickup"]["time_window"] == {"earliest": 41400}
+    assert "time_window" not in back["delivery"]
+    assert (back["amount"], back["skills"]) == ([2], ["WC"])
+    assert out["delivery"]["time_window"] == {"earliest": 0, "latest": 32400}
+    assert "RIDES_BACK" in [doubt.code for doubt in reply.doubts]
