@@ -9,7 +9,7 @@ from functools import cache, lru_cache
 from app.formats.sheets.meanings import (
     CLOCK_UNITS, DURATION_UNITS, MASSES, MEANINGS, MONEY, PRICES, UNITS, VOLUMES, Kind,
 )
-from app.formats.sheets.words import ACTS, BEGIN, COLUMNS, END, EVENTS, WHOLE, WINDOW
+from app.formats.sheets.words import ACTS, BEGIN, COLUMNS, END, EVENTS, LENGTHS, WHOLE, WINDOW
 
 SURE = 1.0
 HEADING = 0.66
@@ -104,6 +104,8 @@ def guesses(heading: str) -> tuple[HeadingGuess, ...]:
     alone = unit if not words else UNITS.get(words[0]) if len(words) == 1 else None
     if not found and alone in STOP_UNITS:
         found["service"] = HeadingGuess("service", 0.9, alone)
+    if not found and (unit or last) in STOP_UNITS and _is_of_stops(words):
+        found["service"] = HeadingGuess("service", AT_STOP, unit or last)
     alone = alone or (said if said in MASSES or said in VOLUMES else None)
     if alone and _takes("demand", alone) and (alone != said or not found):
         found.setdefault("demand", HeadingGuess("demand", 0.9, alone))
@@ -125,6 +127,12 @@ def is_known(heading: str, least: float = HEADING) -> bool:
     """Tell whether a text is likely the heading of a column; `least` is the score it needs."""
     found = guesses(heading) if len(heading) <= LONGEST_HEADING else ()
     return bool(found) and found[0].score >= least
+
+
+def _is_of_stops(words: list[str]) -> bool:
+    """Tell whether unknown words are of a length of time, such as `Aufbauzeit`, not of the way."""
+    return (any(word.endswith(tuple(LENGTHS["time"])) for word in words)
+            and not any(part in word for word in words for part in LENGTHS["way"]))
 
 
 def _money_in(heading: str) -> str | None:

@@ -21,6 +21,7 @@ END: Listed = _FILE["end"]
 """Of windows, by language."""
 ACTS: Listed = _FILE["acts"]
 """What is done at a stop: with `BEGIN` and `END`, when it may begin and must."""
+LENGTHS: Listed = _FILE["lengths"]
 EVENTS: Listed = _FILE["events"]
 """With `BEGIN`, when one must be there at the latest; with `END`, when one may leave."""
 WHOLE: Listed = _FILE["whole"]

@@ -45,7 +45,9 @@ def meanings(reply: ImportReply) -> dict[str, str]:
     ("Menge (\u20ac)", ("20", "30"), "ignored"), ("Amount in EUR", ("20", "30"), "ignored"),
     ("Amount", ("20 \u20ac", "30 \u20ac"), "ignored"), ("Penalty (EUR)", ("20", "30"),
                                                      "unassigned_cost"),
-    ("Anfahrt (min)", ("20", "30"), "ignored"), ("Parcel(s)", ("2", "3"), "demand"),
+    ("Anfahrt (min)", ("20", "30"), "ignored"), ("Anfahrtszeit (min)", ("20", "30"), "ignored"),
+    ("Czas montażu (min)", ("20", "30"), "service"), ("Aufbauzeit (Min)", ("20", "30"), "service"),
+    ("Temps de montage min", ("20", "30"), "service"), ("Parcel(s)", ("2", "3"), "demand"),
     ("Quantity", ("46000.375", "46000.5"), "ignored")])
 def test_a_unit_excludes_what_has_another(heading: str, cells: tuple[str, str],
                                           meaning: str) -> None:
