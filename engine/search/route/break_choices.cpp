@@ -23,8 +23,9 @@
 namespace tandem {
 namespace {
 
-// Ways to a stop that are followed at most.
-constexpr std::size_t most_ways = 48;
+// Ways to a stop that are followed at most: more take longer than they save, where customers cost
+// by when they are served.
+constexpr std::size_t most_lean_ways = 48, most_ways = 8;
 
 // So many are mostly enough.
 constexpr std::size_t few = 8;
@@ -303,7 +304,7 @@ private:
             if (is_no_worse(p, other, way)) return;
         }
         std::erase_if(there_, [&](const Way& other) { return is_no_worse(p, way, other); });
-        if (there_.size() < most_ways) {
+        if (there_.size() < (is_lean ? most_lean_ways : most_ways)) {
             there_.push_back(way);
             return;
         }
