@@ -38,7 +38,7 @@ _DATE = re.compile(r"(?P<date>\d{4}[-/.]\d{1,2}[-/.]\d{1,2}|\d{1,2}([./-])\d{1,2
 _DATES = re.compile(r"\d{4}-\d{1,2}-\d{1,2}|\d{1,2}([./-])\d{1,2}\1\d{2,4}")
 _WEEKDAY = re.compile(r"^[^\W\d_]{2,10}[.,]{0,2}\s(?=\d{1,4}[-./]\d{1,2}[-./]\d)")
 _BETWEEN_BEHIND = re.compile(
-    r"\s*+(?:[-\u2010-\u2015~]|\b(?:to|until|till|bis|al?|alle|tot|do|ate))\s*+$", re.IGNORECASE)
+    r"(?:[-\u2010-\u2015~]|\b(?:to|until|till|bis|al?|alle|tot|do|ate))$", re.IGNORECASE)
 _DATE_SIGNS = re.compile(r"[./-]")
 _SERIAL = re.compile(r"[3-7]\d{4}(?:[.,]\d{1,12})?")
 _ZONE = re.compile(r"(?<=\d)(Z|[+-]\d{2}:?\d{2})$", re.IGNORECASE)
@@ -302,7 +302,7 @@ def _window(text: str, unit: str, style: Style) -> Window:
         return _undated(text, unit, style)
     if second := _DATES.search(dated["rest"]):
         place = dated.start("rest") + second.start()
-        first = _BETWEEN_BEHIND.sub("", text[:place])
+        first = _BETWEEN_BEHIND.sub("", text[:place].rstrip()).rstrip()
         return clock(first, unit, style), clock(text[place:], unit, style)
     since = _of_day(read_date(dated["date"], style), style)
     earliest, latest = _undated(dated["rest"], unit, style)

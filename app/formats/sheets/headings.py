@@ -38,6 +38,7 @@ OF_TIME: tuple[Kind, ...] = ("text", "clock", "windows", "duration", "date")
 
 _SIGNS = str.maketrans({"ß": "ss", "ł": "l", "ø": "o", "æ": "ae", "œ": "oe", "đ": "d", "³": "3",
                         "²": "2", "№": " no ", "\u0131": "i", "#": " no ", "º": " ", "°": " "})
+_BRACKETS = str.maketrans(dict.fromkeys("()[]/", " "))
 _UNIT = re.compile(r"[(\[{](?P<unit>[^)\]}]{1,20})[)\]}]")
 _PLURAL = re.compile(r"(?<=[^\W\d_])\((s|e?n)\)")
 """As in `parcel(s)`, which are no seconds."""
@@ -137,7 +138,7 @@ def _is_of_stops(words: list[str]) -> bool:
 
 def _money_in(heading: str) -> str | None:
     """Return the unit of a heading that names a currency."""
-    words = re.split(r"[\s()\[\]/]+", heading.lower()[:LONGEST_LOOK])
+    words = heading.lower()[:LONGEST_LOOK].translate(_BRACKETS).split()
     return MONEY if any(UNITS.get(word) == MONEY for word in words) else None
 
 

@@ -100,3 +100,8 @@ def test_a_number_or_a_courtesy_beside_a_name_is_not_the_name(head: str) -> None
     assert reply.request is not None
     assert [customer["id"] for customer in reply.request["customers"]] == [
         "Bakery", "Cafe", "Shop"]
+
+
+def test_an_end_beside_a_start_is_that_of_the_window() -> None:
+    found = meanings(read("name,lat,lon,Start,End", "Anna,48.1,11.5,8:00,9:00"))
+    assert [found["Start"], found["End"]] == ["earliest", "latest"]
