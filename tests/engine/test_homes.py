@@ -1,6 +1,7 @@
 """Each rule stands in one file of `engine/rules`, and nobody else applies it."""
 
 import re
+from collections import Counter
 from pathlib import Path
 
 import pytest
@@ -45,6 +46,14 @@ def sources() -> dict[str, set[str]]:
     return {path.relative_to(ENGINE).as_posix(): fields_of(path.read_text())
             for path in (*ENGINE.rglob("*.h"), *ENGINE.rglob("*.cpp"))
             if path.relative_to(ENGINE).parts[0] not in ("include", "tests")}
+
+
+def test_a_type_has_its_name_to_itself() -> None:
+    names = Counter(name for path in (*ENGINE.rglob("*.h"), *ENGINE.rglob("*.cpp"))
+                    if path.relative_to(ENGINE).parts[0] not in ("include", "tests")
+                    for name in re.findall(r"^ *(?:struct|class) ([A-Z]\w*)(?!\w|<)[^;]*$",
+                                           path.read_text(), re.MULTILINE))
+    assert [name for name, homes in names.items() if homes > 1] == []
 
 
 def test_nobody_but_a_rule_reads_what_states_it() -> None:

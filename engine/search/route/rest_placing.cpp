@@ -78,7 +78,7 @@ public:
             const Int last = last_of_block(p);
             const RestLabels& here = rows_.go_on();
             if (behind_ == sortie_) {
-                const Way way = route_.way_from(p, ahead, false);
+                const LegAhead way = route_.way_from(p, ahead, false);
                 for (const RestLabel& label : here) pass(label, way);
                 ahead = way.ahead;
             } else {
@@ -105,7 +105,7 @@ private:
     }
 
     // Leave a stop without sorties, reached so, and come to the next.
-    void pass(RestLabel label, const Way& way) {
+    void pass(RestLabel label, const LegAhead& way) {
         Stop& stop = stops_[way.p];
         if (!route_.reach_alone(way.p, label.time)) return;
         if (waits_.count()) {
@@ -116,7 +116,7 @@ private:
     }
 
     // Leave the block that begins with a stop, and come to the next.
-    void leave(RestLabel label, const Way& way, Int first) {
+    void leave(RestLabel label, const LegAhead& way, Int first) {
         if (!route_.leave_block(label, first)) return;
         if (route_.is_last(way.p)) {
             rows_.there().add(label);
@@ -140,7 +140,7 @@ private:
         inside_.there().add(reached);
         for (Int q = first; q < last; ++q) {
             const RestLabels& here = inside_.go_on();
-            const Way way = route_.way_from(q, ahead, true);
+            const LegAhead way = route_.way_from(q, ahead, true);
             ahead = way.ahead;
             for (RestLabel label : here) {
                 if (label.timed < 0) time_inside(label, first, last, reached);
@@ -152,7 +152,7 @@ private:
                 legs_.drive(label, way, inside_.there());
             }
         }
-        const Way way = route_.way_from(last, ahead, false);
+        const LegAhead way = route_.way_from(last, ahead, false);
         for (RestLabel label : inside_.there()) {
             if (label.timed < 0 || waits_.count()) time_inside(label, first, last, reached);
             const Timed& timed = timed_[static_cast<std::size_t>(label.timed)];

@@ -68,7 +68,7 @@ void RestRoute::note_latest() const {
     }
 }
 
-Way RestRoute::way_from(Int p, const Ahead& ahead, bool flying) const {
+LegAhead RestRoute::way_from(Int p, const Ahead& ahead, bool flying) const {
     const Int duration = driving_at(p);
     const Int setup =
         is_last(p) ? 0 : setup_after(truck.data.setup, stops[p].node, stops[p + 1].node);
@@ -91,7 +91,8 @@ bool RestRoute::leave_block(RestLabel& label, Int first) const {
     return may_still_work(type, label.driver, label.time);
 }
 
-void RestRoute::arrive(RestLabel& label, const Way& way, const RestedLeg& leg, Int left) const {
+void RestRoute::arrive(RestLabel& label, const LegAhead& way, const RestedLeg& leg,
+                       Int left) const {
     label.time = leg.time() + way.setup;
     if (!truck.resting) label.cum += label.time - left;
     if (has_driving_rules(type)) label.driver = leg.driver();

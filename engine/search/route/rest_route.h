@@ -20,7 +20,7 @@ struct Ahead {
 };
 
 // A leg, driven while drones are out or not, and what lies behind it.
-struct Way {
+struct LegAhead {
     Int p;  // the stop before it
     Int duration;
     Int setup;
@@ -93,10 +93,10 @@ public:
     void note_latest() const;
 
     // Return the leg from a stop, from which so much lies ahead.
-    Way way_from(Int p, const Ahead& ahead, bool flying) const;
+    LegAhead way_from(Int p, const Ahead& ahead, bool flying) const;
 
     // Return the leg for a driver who leaves so.
-    RestedLeg leg_of(const RestLabel& label, const Way& way) const {
+    RestedLeg leg_of(const RestLabel& label, const LegAhead& way) const {
         return {truck.speeds, truck.begin, label.driver, truck.stood_at(stops[way.p]),
                 label.time,   way.duration};
     }
@@ -114,7 +114,7 @@ public:
     bool leave_block(RestLabel& label, Int first) const;
 
     // Let a driver be where a leg ends that was left at `left`. In place.
-    void arrive(RestLabel& label, const Way& way, const RestedLeg& leg, Int left) const;
+    void arrive(RestLabel& label, const LegAhead& way, const RestedLeg& leg, Int left) const;
 
     // Let a driver pass the end of a trip. In place.
     void reload(RestLabel& label, Int p) const;

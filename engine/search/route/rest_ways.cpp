@@ -20,7 +20,7 @@ public:
     // Come from the beginning of a route to its end. In place; false if that doesn't do.
     bool run(RestLabel& label, Ahead ahead) {
         for (Int p = 0;; ++p) {
-            const Way way = route_.way_from(p, ahead, false);
+            const LegAhead way = route_.way_from(p, ahead, false);
             if (!route_.reach_alone(p, label.time) || !route_.leave_block(label, p)) return false;
             if (route_.is_last(p)) return true;
             if (route_.stops[p].kind == end_stop) {
@@ -41,7 +41,7 @@ private:
         return true;
     }
 
-    bool drive(RestLabel& label, const Way& way) {
+    bool drive(RestLabel& label, const LegAhead& way) {
         const Int left = label.time;
         RestedLeg leg = route_.leg_of(label, way);
         const auto rest_at = [&](RestPlace place) {
@@ -66,7 +66,7 @@ private:
     }
 
     // As `drive`, of who has breaks to come.
-    bool drive_with_breaks(RestLabel& label, const Way& way) {
+    bool drive_with_breaks(RestLabel& label, const LegAhead& way) {
         const Int left = label.time;
         RestedLeg leg = route_.leg_of(label, way);
         const auto stay = [&](Int arrival) {
@@ -94,7 +94,7 @@ private:
     // Take half a rest and behind it a break that is the other half, where that can't be put off.
     // In place; false if they can't be.
     template <class Ends>
-    bool halve(RestLabel& label, RestedLeg& leg, const Way& way, const Ends& ends) {
+    bool halve(RestLabel& label, RestedLeg& leg, const LegAhead& way, const Ends& ends) {
         const Int number = route_.due[label.next], half = rest_duration(type_, first_part);
         if (!completes_rest(leg, number) || is_among(route_.stops[way.p].heavy, number))
             return true;
@@ -129,7 +129,7 @@ private:
 
 }  // namespace
 
-void RestLegs::drive(const RestLabel& label, const Way& way, RestLabels& there) {
+void RestLegs::drive(const RestLabel& label, const LegAhead& way, RestLabels& there) {
     way_ = way;
     left_ = label.time;
     there_ = &there;

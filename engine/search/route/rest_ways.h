@@ -14,7 +14,7 @@ public:
         : route_(route), type_(route.type), best_(best), taken_(taken) {}
 
     // Let a driver who leaves so drive to the next stop, and note how it may be there.
-    void drive(const RestLabel& label, const Way& way, RestLabels& there);
+    void drive(const RestLabel& label, const LegAhead& way, RestLabels& there);
 
 private:
     void ride(const RestLabel& label, const RestedLeg& leg, RestPlace place);
@@ -29,7 +29,7 @@ private:
     const VehicleType& type_;
     const BestRests& best_;
     TakenRests& taken_;
-    Way way_{};
+    LegAhead way_{};
     Int left_ = 0;  // when the leg began
     RestLabels* there_ = nullptr;
     Int kept_ = 0;  // labels
