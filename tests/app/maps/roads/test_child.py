@@ -82,8 +82,9 @@ def test_a_child_ends_with_the_engine(embedded: EmbeddedRoads, helsinki_places: 
 
 
 def test_a_child_does_not_outlive_its_service(prepared_build: Build, tools: Tools) -> None:
-    script = ("import sys, time; from pathlib import Path; from app.maps.roads.child import Child; "
-              "child = Child(Path(sys.argv[1]), Path(sys.argv[2]), 1); "
+    script = ("import sys, time; from pathlib import Path; "
+              "from app.maps.roads.child import RoutingChild; "
+              "child = RoutingChild(Path(sys.argv[1]), Path(sys.argv[2]), 1); "
               "child.url(time.perf_counter() + 60); print(child.pid, flush=True); "
               "time.sleep(600)")
     with subprocess.Popen([sys.executable, "-c", script, tools.routed, prepared_build.data],
