@@ -69,10 +69,11 @@ class SteppingPlanner:
         listener.on_progress(Progress(first_cost, 0, lambda: plan))
         while not listener.should_stop() and (share := self._share(options, began, turns)) < 1:
             threading.Event().wait(PAUSE)
-            if share == reached:
-                continue
-            turns, reached = turns + 1, share
-            plan = partial_plan(problem, round(fewest + share * (problem.num_customers - fewest)))
+            if share != reached:
+                turns, reached = turns + 1, share
+                served = round(fewest + share * (problem.num_customers - fewest))
+                plan = partial_plan(problem, served)
+            # Again, as whoever read a plan for long hears of none for a while.
             listener.on_progress(Progress(cost_of(problem, plan), turns, partial(self._same, plan)))
         if self._share(options, began, turns) >= 1:
             plan = partial_plan(problem, problem.num_customers)
