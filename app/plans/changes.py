@@ -30,7 +30,7 @@ MOST_RELATED = 500
 """Customers in all relations up to which a remedy repeats these: each repeats them all."""
 
 THOUSANDTHS = 1000
-"""Of a second or a metre, in which problems count."""
+"""Of a second, a metre or a factor, in which problems count."""
 
 
 class NowhereError(Exception):
@@ -215,7 +215,7 @@ def _end_window(of: Changing, change: Change) -> Found:
 
 def _closing(of: Changing, keys: Keys, change: Change) -> Found:
     """Return that a window closes later, though before the next opens."""
-    windows, more = of.at((*keys, "time_windows")), change.quantity / 1000
+    windows, more = of.at((*keys, "time_windows")), change.quantity / THOUSANDTHS
     if windows is None:
         return _later(of, (*keys, "time_window"), more)
     number = change.window - 1 if change.window > 0 else len(windows) - 1
@@ -236,7 +236,7 @@ def _later(of: Changing, window: Keys, more: float) -> Found:
 
 
 def _lags(of: Changing, change: Change) -> Found:
-    names, least = _names(of), change.quantity / 1000
+    names, least = _names(of), change.quantity / THOUSANDTHS
     return [(keys, {"to": of.written(keys, least)})
             for number, each in enumerate(of.request.relations)
             for keys in [("relations", number, "max_lag")]
@@ -332,8 +332,9 @@ CHANGES: dict[str, Callable[[Changing, Change], Found]] = {
     "end_window": _end_window,
     "time_aboard": lambda of, change: of.more(
         (*of.subject, "max_time_aboard" if of.place == of.subject else "max_time_between"),
-        change.quantity / 1000),
-    "detour": lambda of, change: [((*of.subject, "max_detour"), {"to": change.quantity / 1000})],
+        change.quantity / THOUSANDTHS),
+    "detour": lambda of, change: [
+        ((*of.subject, "max_detour"), {"to": change.quantity / THOUSANDTHS})],
     "lag": _lags,
     "relations": lambda of, _: unrelated(of),
     "wind": lambda of, change: [((*of.flyer(change.of), "max_wind_kmh"), {"to": None})],
@@ -341,13 +342,13 @@ CHANGES: dict[str, Callable[[Changing, Change], Found]] = {
                                           change.quantity / 10),
     "launch": lambda of, change: [(of.named("depots", change.of, "launch"), {"to": True})],
     "depot_hours": lambda of, change: of.more(
-        of.named("depots", change.of, "time_window", "latest"), change.quantity / 1000,
+        of.named("depots", change.of, "time_window", "latest"), change.quantity / THOUSANDTHS,
         is_instant=True),
     "rests_in_flight": _to(True, "driving_rules", "while_drones_fly"),
     "break_load": lambda of, change: [(of.named("breaks", change.of, "max_load"),
                                        _amounts(change))],
     "break_start": lambda of, change: of.more(of.named("breaks", change.of, "start", "latest"),
-                                              change.quantity / 1000, is_instant=True),
+                                              change.quantity / THOUSANDTHS, is_instant=True),
     "break": lambda of, change: [((*of.type, "breaks"), {"to": [
         as_written(each) for each in of.at((*of.type, "breaks")) if each.id != change.of]})],
     "trips": lambda of, _: of.more((*of.type, "max_trips"), 1),

@@ -6,7 +6,7 @@ Each change is tried: the trip is planned and judged again.
 from collections.abc import Iterator
 from dataclasses import replace
 
-from model.counsel.diagnosis import up_to_tenth, with_type
+from model.counsel.diagnosis import more_of, up_to_tenth, with_type
 from model.counsel.remedy import Change, Part, in_units
 from model.counsel.trial import Attempt, again
 from model.judge.breaks import begin_of, window_of
@@ -81,11 +81,10 @@ def _longer_spells(kind: VehicleType, free: Trip) -> Iterator[Tried]:
         yield (Change("rests_in_flight", kind.id),
                replace(kind, driving=replace(rules, while_drones_fly=True)))
     driven = up_to_tenth(rules.driven_before + travel_duration((free,)), MS_PER_MINUTE)
-    if rules.max_driving < driven <= MAX_QUANTITY:
-        yield (Change("driving", kind.id, driven),
-               replace(kind, driving=replace(rules, max_driving=driven)))
     worked = up_to_tenth(rules.worked_before + free.stops[-1].departure - begin_of(kind, free),
                          MS_PER_MINUTE)
-    if rules.max_work < worked <= MAX_QUANTITY:
-        yield (Change("work_spell", kind.id, worked),
-               replace(kind, driving=replace(rules, max_work=worked)))
+    for name, most, needed in (("driving", rules.max_driving, driven),
+                               ("work_spell", rules.max_work, worked)):
+        if most < needed:
+            part, longer = more_of(name, kind, needed - most, kind.id)
+            yield from ((change, longer) for change in part)

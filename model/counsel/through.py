@@ -21,9 +21,8 @@ from model.judge.network import NEVER, Network, network_of
 from model.judge.past import EVERYTHING_OPEN
 from model.judge.retiming import TimedRoute, time_route
 from model.judge.timing import RouteDecision, TripDecision
-from model.problem import (
-    MAX_QUANTITY, MM_PER_KM, UNLIMITED, BoolArray, Depot, Problem, VehicleType,
-)
+from model.problem import MM_PER_KM, UNLIMITED, BoolArray, Depot, Problem, VehicleType
+from model.problem.limits import LIMITS
 
 MOST_CUSTOMERS = 250
 """Among so many customers ways through others are looked for."""
@@ -177,29 +176,27 @@ def _lacking(end: Depot, vehicles: VehicleType, timed: TimedRoute) -> Lacking | 
     if codes == {"SHIFT"} and vehicles.overtime is not None:
         over = vehicles.overtime.max_duration
         late = up_to_tenth(timed.judged.end - vehicles.latest - over, MS_PER_MINUTE)
-        longer = replace(vehicles.overtime, max_duration=min(over + late, UNLIMITED))
         return Lacking("SHIFT", f"would be back {in_minutes(late)} after its shift and all the "
-                       "overtime allowed", replace(vehicles, overtime=longer))
+                       "overtime allowed", LIMITS["overtime"].raised(vehicles, late))
     if codes == {"SHIFT"}:
         late = up_to_tenth(timed.judged.end - vehicles.latest, MS_PER_MINUTE)
-        enough = min(vehicles.latest + late, UNLIMITED)
         return Lacking("SHIFT", f"would be back {in_minutes(late)} after its shift ends",
-                       replace(vehicles, latest=enough))
+                       LIMITS["shift"].raised(vehicles, late))
     if codes == {"WORKING_DURATION"} and vehicles.overtime is None:
         limit = vehicles.max_working_duration or 0
         more = up_to_tenth(timed.judged.metrics.working_duration - limit, MS_PER_MINUTE)
         return Lacking("WORKING_HOURS", f"would work {in_minutes(more)} more than it may",
-                       replace(vehicles, max_working_duration=min(limit + more, MAX_QUANTITY)))
+                       LIMITS["work"].raised(vehicles, more))
     if codes == {"TRIP_DISTANCE"}:
         limit = vehicles.max_trip_distance or 0
         more = up_to_tenth(timed.judged.metrics.trips[0].distance - limit, MM_PER_KM)
         return Lacking("RANGE", f"would drive {in_km(more)} more than a trip may be long",
-                       replace(vehicles, max_trip_distance=min(limit + more, MAX_QUANTITY)))
+                       LIMITS["trip_distance"].raised(vehicles, more))
     if codes == {"TRAVEL_DURATION"}:
         limit = vehicles.max_travel_duration or 0
         more = up_to_tenth(travel_duration(timed.route.trips) - limit, MS_PER_MINUTE)
         return Lacking("TRAVEL_DURATION", f"would travel {in_minutes(more)} more than it may",
-                       replace(vehicles, max_travel_duration=min(limit + more, MAX_QUANTITY)))
+                       LIMITS["travel"].raised(vehicles, more))
     return None
 
 
