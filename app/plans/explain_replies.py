@@ -2,23 +2,23 @@
 
 from collections.abc import Collection, Iterable, Sequence
 
+from app.plans.remedies import Remedies
 from app.plans.replies import (
     Data, cost_reply, one_per_type, place_reply, reason_reply, vehicle_name,
 )
-from app.plans.remedies import Remedies
 from app.plans.steps import Steps
 from app.plans.task import telling
 from app.requests.conversion.units import money, whole
 from model.counsel.alternatives import Alternative, halt_of
 from model.counsel.bench import Bench, Trial
 from model.counsel.binding import Binding, Limit
-from model.judge.clock import window_of
 from model.counsel.explain import Reason
 from model.counsel.group_moves import MovedUnit
 from model.counsel.idle_drones import Idle
+from model.counsel.worth import Worth
+from model.judge.clock import window_of
 from model.judge.places import Found, find_place, halts
 from model.judge.rules import Violation
-from model.counsel.worth import Worth
 from model.planner import PlanResult
 from model.problem import Problem
 from model.solution import Cost, Solution, Stop, Visit

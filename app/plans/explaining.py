@@ -25,10 +25,10 @@ from model.counsel.alternatives import find_alternatives
 from model.counsel.bench import Bench, Setting
 from model.counsel.binding import find_binding
 from model.counsel.idle_drones import idle_drones
+from model.counsel.worth import sorties_worth
 from model.judge.launch_sites import without_idle_stops
 from model.judge.places import used_place
 from model.judge.retiming import read_route, time_route
-from model.counsel.worth import sorties_worth
 from model.planner import Listener, Planner, PlanOptions, PlanResult
 from model.problem import Problem, Shipment
 from model.solution import Route, Solution

@@ -23,8 +23,8 @@ from app.schemas.errors import InputError, InvalidRequestError
 from app.schemas.fit import FitReply, FitRequest
 from app.serving.load.received import ReceivedBody
 from model.counsel.bench import Bench, Trial
-from model.judge.check import Evaluation, JudgedRoute
 from model.counsel.fitting import Fit, find_fits, new_violations, spot_of, vehicle_of
+from model.judge.check import Evaluation, JudgedRoute
 from model.judge.places import find_place, used_place
 from model.solution import Solution
 

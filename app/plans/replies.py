@@ -12,11 +12,11 @@ from app.requests.conversion.units import money, whole
 from app.schemas.customer import place_name
 from app.schemas.driving import REST_ID
 from app.schemas.shipment import end_name
-from model.judge.check import Evaluation
-from model.judge.chargers import most_charged
-from model.judge.hubs import batteries_taken
 from model.counsel.explain import Reason, explain
+from model.judge.chargers import most_charged
+from model.judge.check import Evaluation
 from model.judge.fairness import vehicles_lacking
+from model.judge.hubs import batteries_taken
 from model.judge.metrics import RouteMetrics, SortieMetrics, TripMetrics
 from model.planner import PlanOptions, PlanResult
 from model.problem import MM_PER_KM, REST, Problem, Shipment

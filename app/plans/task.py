@@ -10,16 +10,17 @@ from functools import cached_property, partial
 from pydantic_core import to_json
 
 from app.maps.roads.roads import NO_ROADS, Roads
-from app.plans.changes import Changing, Stated
-from app.plans.remedies import remedy_reply
-from app.plans.steps import step
 from app.plans.carried import Info, carry, info_of, names_left_out
+from app.plans.changes import Changing, Stated
 from app.plans.closures import Closures
 from app.plans.far_plans import FarPlans
 from app.plans.geometry import Geometry
 from app.plans.permits import Permits
+from app.plans.remedies import remedy_reply
 from app.plans.replan_replies import on_the_wire, replan_reply
 from app.plans.replies import Data, plan_reply, route_reply
+from app.plans.rulebook import laws_named, rules_named
+from app.plans.steps import step
 from app.plans.storms import Storms
 from app.plans.telling import IN_SECONDS, Telling
 from app.requests.conversion.ground import Ground
@@ -32,7 +33,6 @@ from app.requests.conversion.problem import problem_of
 from app.requests.conversion.travels import Travels
 from app.requests.conversion.units import optional_thousandths
 from app.requests.conversion.work import replanning_seconds
-from app.plans.rulebook import laws_named, rules_named
 from app.requests.plan_departed import with_what_is_there
 from app.requests.plan_reading import plan_to_solution, read_earlier_plan
 from app.requests.warnings.addresses import address_warnings
@@ -42,12 +42,12 @@ from app.schemas.errors import InputError, InvalidRequestError
 from app.schemas.request import PlanRequest, ReplanInput
 from app.schemas.response import PlanReply
 from model.counsel.bench import Setting
-from model.judge.check import Evaluation, JudgedRoute, check
 from model.counsel.binding import Limit
 from model.counsel.explain import Reason, explain
 from model.counsel.more_trips import with_another_trip
-from model.judge.past import Vehicle
 from model.counsel.remedy import Remedy
+from model.judge.check import Evaluation, JudgedRoute, check
+from model.judge.past import Vehicle
 from model.judge.rules import Violation
 from model.planner import ALONE, Elapsed, Listener, Planner, PlanOptions, PlanResult
 from model.problem import Problem

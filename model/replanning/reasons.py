@@ -4,10 +4,10 @@ from dataclasses import replace
 
 import numpy as np
 
-from model.judge.company import kept_off, who_decides
 from model.counsel.explain import POSSIBLE, Reason, explain_type
-from model.judge.past import Past, Vehicle
 from model.counsel.remedy import remedy_of
+from model.judge.company import kept_off, who_decides
+from model.judge.past import Past, Vehicle
 from model.problem import Problem
 from model.replanning.remainder import Remainder
 from model.replanning.workers import vehicle_name

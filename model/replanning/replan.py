@@ -5,9 +5,9 @@ import time
 from collections.abc import Callable, Collection, Mapping
 from dataclasses import dataclass, field, replace
 
+from model.counsel.explain import Reason, explain_type, unexplained
 from model.judge.chargers import with_charging
 from model.judge.check import Evaluation, check, judge_route
-from model.counsel.explain import Reason, explain_type, unexplained
 from model.judge.memory import Memory
 from model.judge.past import Past, Vehicle, known_trips, parcels_aboard
 from model.judge.past_rules import PAST_RULES

@@ -5,9 +5,9 @@ import pytest
 
 from model.counsel.alternatives import find_alternatives
 from model.counsel.bench import Bench
+from model.counsel.screening import Screen
 from model.judge.check import check
 from model.judge.past import Vehicle
-from model.counsel.screening import Screen
 from model.judge.timing import RouteDecision, SortieDecision, TripDecision, schedule
 from model.solution import Solution
 from tests.model.tiny import (

@@ -9,9 +9,9 @@ import pytest
 
 from model.counsel.alternatives import find_alternatives
 from model.counsel.bench import Bench
-from model.judge.check import check
 from model.counsel.fitting import find_fits, new_violations
 from model.counsel.group_moves import companions_to
+from model.judge.check import check
 from model.judge.past import EVERYTHING_OPEN, Vehicle
 from model.judge.places import halts
 from model.judge.retiming import time_route

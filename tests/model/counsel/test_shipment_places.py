@@ -14,9 +14,9 @@ from model.counsel import binding
 from model.counsel.alternatives import find_alternatives, here_of
 from model.counsel.bench import Bench
 from model.counsel.binding import find_binding
+from model.counsel.fitting import find_fits, new_violations
 from model.judge.check import check
 from model.judge.ends import with_ends
-from model.counsel.fitting import find_fits, new_violations
 from model.judge.past import EVERYTHING_OPEN
 from model.judge.retiming import read_route, time_route
 from model.judge.timing import RouteDecision, SortieDecision, TripDecision

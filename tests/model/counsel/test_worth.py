@@ -2,8 +2,8 @@ from dataclasses import replace
 
 import pytest
 
-from model.judge.timing import SortieDecision
 from model.counsel.worth import Worth, sorties_worth
+from model.judge.timing import SortieDecision
 from tests.model.counsel.test_alternatives import A, B, C, D, plan, route
 
 

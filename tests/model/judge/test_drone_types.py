@@ -4,8 +4,8 @@ from dataclasses import replace
 
 import pytest
 
-from model.judge.check import check
 from model.counsel.explain import explain
+from model.judge.check import check
 from model.judge.past import Past, Vehicle, known_trips
 from model.judge.timing import RouteDecision, SortieDecision, TripDecision, read_decision, schedule
 from model.problem import VehicleType

@@ -4,9 +4,9 @@ from dataclasses import replace
 
 import pytest
 
+from model.counsel.explain import explain
 from model.judge.check import check
 from model.judge.energy import leg_energy, power_at, sortie_energy
-from model.counsel.explain import explain
 from model.judge.rules import watt_hours
 from model.judge.timing import RouteDecision, SortieDecision, TripDecision, schedule
 from model.problem import MICROJOULES_PER_WH, DroneType, Energy, Problem

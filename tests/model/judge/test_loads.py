@@ -4,8 +4,8 @@ from dataclasses import replace
 
 import pytest
 
-from model.judge.check import check
 from model.counsel.explain import explain
+from model.judge.check import check
 from model.judge.timing import RouteDecision, SortieDecision, TripDecision, schedule
 from model.solution import Solution
 from tests.model.remedies import applied

@@ -4,8 +4,8 @@ from dataclasses import replace
 
 import pytest
 
-from model.judge.check import check
 from model.counsel.explain import POSSIBLE, explain
+from model.judge.check import check
 from model.judge.timing import (
     Operation, RouteDecision, SortieDecision, TripDecision, schedule,
 )

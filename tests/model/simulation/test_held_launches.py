@@ -6,11 +6,11 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from model.judge.check import check
 from model.counsel.explain import Reason, explain
-from model.judge.timing import RouteDecision, SortieDecision, TripDecision, schedule
 from model.counsel.trial import small_problem
 from model.engine.instance import pack
+from model.judge.check import check
+from model.judge.timing import RouteDecision, SortieDecision, TripDecision, schedule
 from model.problem import Problem, SpeedProfile
 from model.search.improve import SearchConfig, improve
 from model.simulation.actions import DRIVE, LAUNCH, OPEN, RETURN, apply, encode_action, reset
