@@ -6,13 +6,13 @@ import subprocess
 import sys
 import time
 from collections.abc import Iterator, Sequence
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import Any
 
 import httpx
 from playwright.sync_api import (
-    Browser, BrowserContext, BrowserType, ViewportSize, sync_playwright,
+    Browser, BrowserContext, BrowserType, Error, ViewportSize, sync_playwright,
 )
 
 from tests.conftest import PATIENCE, free_port
@@ -100,9 +100,17 @@ def launched(kind: BrowserType, more: Sequence[str] = ()) -> Iterator[Browser]:
             or shutil.which("chromium"))
     if path is None:
         raise RuntimeError("the console is tested with Chromium: .ci/prepare says how to get it")
-    browser = kind.launch(executable_path=path, args=[*ARGUMENTS, *more], timeout=OPENING_MS)
+    browser = _launch(kind, path, [*ARGUMENTS, *more])
     yield browser
     browser.close()
+
+
+def _launch(kind: BrowserType, path: str, arguments: Sequence[str]) -> Browser:
+    for _ in range(2):
+        # Chromium itself was seen to crash before its first page, once in some thousand launches.
+        with suppress(Error):
+            return kind.launch(executable_path=path, args=arguments, timeout=OPENING_MS)
+    return kind.launch(executable_path=path, args=arguments, timeout=OPENING_MS)
 
 
 def new_context(browser: Browser, **options: Any) -> BrowserContext:
