@@ -178,8 +178,8 @@ function coloursOf(element) {
   const style = getComputedStyle(element);
   const value = (name) => style.getPropertyValue(`--${name}`).trim();
   return {
-    text: value('text'),
-    faint: value('faint'),
+    text: value('text-1'),
+    faint: value('text-2'),
     grid: value('line'),
     wait: value('wait'),
     window: value('window'),

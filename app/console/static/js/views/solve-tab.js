@@ -96,10 +96,10 @@ function draw(Chart, element, onChart) {
   const style = getComputedStyle(document.documentElement);
   const colour = (name) => style.getPropertyValue(`--${name}`).trim();
   const axis = {
-    stroke: colour('faint'),
+    stroke: colour('text-2'),
     grid: { stroke: colour('line'), width: 1 },
     ticks: { stroke: colour('line'), width: 1 },
-    font: '11px system-ui',
+    font: '11px Inter, system-ui',
   };
   const seconds = t('solve.seconds');
   const sizeOf = () => ({ width: element.clientWidth, height: 190 });
@@ -111,7 +111,7 @@ function draw(Chart, element, onChart) {
       y: { range: (_, low, high) => roomy(low, high) },
     },
     axes: [
-      { ...axis, label: seconds, labelSize: 18, labelFont: '11px system-ui', size: 28 },
+      { ...axis, label: seconds, labelSize: 18, labelFont: '11px Inter, system-ui', size: 28 },
       { ...axis, size: 56 },
     ],
     series: [
@@ -121,7 +121,7 @@ function draw(Chart, element, onChart) {
         stroke: colour('accent'),
         width: 2,
         paths: Chart.paths.stepped({ align: 1 }),
-        points: { show: true, size: 5, fill: colour('panel') },
+        points: { show: true, size: 5, fill: colour('surface-1') },
         value: (_, value) => (value === null ? '' : money(value)),
       },
     ],
