@@ -34,7 +34,7 @@ _BARE = re.compile(r"\d++(?:[.,]\d++)?")
 _BARE_HOUR, _BARE_HHMM = re.compile(r"\d{1,2}"), re.compile(r"\d{3,4}")
 _BARE_POINT, _BARE_MINUTES = re.compile(r"\d{1,2}[.,]\d{2}"), re.compile(r"\d{1,2}[.,][0-5]\d")
 _DATE = re.compile(r"(?P<date>\d{4}[-/.]\d{1,2}[-/.]\d{1,2}|\d{1,2}([./-])\d{1,2}\2\d{2,4})"
-                   r"[T,\s]*+(?P<rest>.*+)")
+                   r"[T,.\s]*+(?P<rest>.*+)")
 _DATES = re.compile(r"\d{4}-\d{1,2}-\d{1,2}|\d{1,2}([./-])\d{1,2}\1\d{2,4}")
 _WEEKDAY = re.compile(r"^[^\W\d_]{2,10}[.,]{0,2}\s(?=\d{1,4}[-./]\d{1,2}[-./]\d)")
 _BETWEEN_BEHIND = re.compile(

@@ -4,13 +4,14 @@ import re
 from collections import Counter
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, replace
+from datetime import datetime, time
 
 from app.formats.sheets.cells import Doubt, MisreadError, Raw, letters, shown
 from app.formats.sheets.clocks import Style
 from app.formats.sheets.headings import HEADING, guesses, simple
 from app.formats.sheets.layout import Table
 from app.formats.sheets.links import is_link, place_of
-from app.formats.sheets.meanings import MEANINGS, MONEY, PLACES, meaning_at
+from app.formats.sheets.meanings import MEANINGS, MONEY, PLACES, SIDES, meaning_at
 from app.formats.sheets.numbers import own_unit
 from app.formats.sheets.readers import NO, ORDER_KINDS, YES, read, ticked_kind
 from app.formats.sheets.schemas import ColumnMapping
@@ -31,6 +32,15 @@ GUESSED = 0.99
 
 MOST = 0.7
 """Share of a column's cells that must look like something for the column to be taken for it."""
+
+FETCHED = {meaning_at("pickup", part) for part in ("latitude", "point", "x", "address")}
+"""Columns of which one tells that goods are fetched elsewhere."""
+
+PAIRS = {one: other for first, second in (("latitude", "longitude"), ("x", "y"))
+         for one, other in ((first, second), (second, first))}
+PAIRS |= {meaning_at(side, one): meaning_at(side, other)
+          for side in SIDES for one, other in PAIRS.items()}
+"""Columns that say nothing alone."""
 
 BY_CONTENT = 0.5
 """Most confidence in a meaning that no heading states."""
@@ -93,6 +103,7 @@ def columns_of(table: Table, style: Style, mapping: Sequence[ColumnMapping]) -> 
         taken.add(column.meaning)
         found[column.index] = column
     _align_windows(table, found)
+    _doubt_ends(found)
     for index, heading in enumerate(table.headings):
         if index not in found and (heading or table.column(index)):
             found[index] = Column(index, heading, doubts=_unfit(table, index))
@@ -110,6 +121,21 @@ def _align_windows(table: Table, columns: dict[int, Column]) -> None:
         if alone.unit not in ("clock", guess.unit):
             bare = replace(column, unit=guess.unit, doubts=())
             columns[column.index] = replace(bare, doubts=_unit_doubts(bare, guess))
+
+
+def _doubt_ends(columns: dict[int, Column]) -> None:
+    """Doubt when a stop may begin where two places may be meant, and half a pair. In place."""
+    meanings = {column.meaning for column in columns.values()}
+    for index, column in columns.items():
+        if column.confidence == 1:
+            continue
+        others = PAIRS.get(column.meaning)
+        lacks = others is not None and others not in meanings
+        if lacks or (column.meaning in ("earliest", "window") and meanings & FETCHED):
+            code, told = ("HALF_PAIR", f"no column is its {others}") if lacks else (
+                "WHICH_END", "it doesn't say of which of the two places it is")
+            columns[index] = replace(column, doubts=(*column.doubts, Doubt(
+                code, f"Column {column.name}: {told}.", letters(index))))
 
 
 def _may_repeat(column: Column) -> bool:
@@ -167,6 +193,8 @@ def _options(table: Table, index: int, style: Style, side: Side) -> Iterable[Col
     cells, named = _samples(table, index), set()
     heading, are_points = table.headings[index], _share(cells, _is_point) > MOST
     for guess in guesses_at(heading, side)[:6]:
+        if are_points and guess.score >= HEADING and guess.meaning.endswith("address"):
+            named.add(guess.meaning.removesuffix("address") + "point")
         # Coordinates are words as well: of a second place, that would go unasked.
         if guess.score >= HEADING and not (are_points and guess.meaning.endswith("address")):
             column = _with_unit(table, Column(index, heading, guess.meaning, guess.unit,
@@ -266,14 +294,26 @@ def _fit(cells: Sequence[Raw], column: Column, style: Style) -> float:
         return 0.0 if MONEY in units else 1.0
     if kind == "amount" and column.unit is None and are_instants(cells):
         return 0.0
-    said = 0
+    if kind == "names" and all(isinstance(raw, time) or _CLOCK.fullmatch(shown(raw))
+                               or (isinstance(raw, float) and raw < 1) for raw in cells):
+        return 0.0  # before which time, not whom
+    said = 0.0
     for raw in cells:
         try:
             value = read(raw, kind, column.unit, style)
             said += column.meaning not in ("latitude", "longitude") or abs(value) <= 180
+            if kind == "date" and _says_clock(raw):
+                said -= 0.5  # `Fecha` is a date in Spanish, and closes in Portuguese
         except (MisreadError, TypeError):
             continue
     return said / len(cells)
+
+
+def _says_clock(raw: Raw) -> bool:
+    """Tell whether a cell states a time of day."""
+    if isinstance(raw, datetime):
+        return raw.time() != time()
+    return isinstance(raw, time) or (isinstance(raw, str) and ":" in raw)
 
 
 def _fit_words(cells: Sequence[Raw], meaning: str, heading: str) -> float:

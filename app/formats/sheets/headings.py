@@ -9,7 +9,9 @@ from functools import cache, lru_cache
 from app.formats.sheets.meanings import (
     CLOCK_UNITS, DURATION_UNITS, MASSES, MEANINGS, MONEY, PRICES, UNITS, VOLUMES, Kind,
 )
-from app.formats.sheets.words import ACTS, BEGIN, COLUMNS, END, EVENTS, LENGTHS, WHOLE, WINDOW
+from app.formats.sheets.words import (
+    ACTS, ASIDE, BEGIN, COLUMNS, END, EVENTS, LENGTHS, WHOLE, WINDOW,
+)
 
 SURE = 1.0
 HEADING = 0.66
@@ -139,7 +141,15 @@ def _is_of_stops(words: list[str]) -> bool:
 def _money_in(heading: str) -> str | None:
     """Return the unit of a heading that names a currency."""
     words = heading.lower()[:LONGEST_LOOK].translate(_BRACKETS).split()
-    return MONEY if any(UNITS.get(word) == MONEY for word in words) else None
+    return MONEY if any(unit_named(word) == MONEY for word in words) else None
+
+
+def is_aside(heading: str) -> bool:
+    """Tell whether a heading is known to be about what no plan goes by, such as a price."""
+    words = simple(heading[:LONGEST_LOOK]).split()
+    return _money_in(heading) is not None or any(
+        " ".join(words[start:end]) in ASIDE for start in range(len(words))
+        for end in range(start + 1, len(words) + 1))
 
 
 def _agrees(meaning: str, unit: str | None) -> bool:

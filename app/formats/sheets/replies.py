@@ -4,6 +4,7 @@ from collections import Counter
 from collections.abc import Sequence
 
 from app.formats.sheets.cells import Doubt, MisreadError, Raw, letters, shown
+from app.formats.sheets.certainty import certainty_of
 from app.formats.sheets.clocks import Style
 from app.formats.sheets.columns import Column
 from app.formats.sheets.layout import Table
@@ -33,7 +34,7 @@ def reply_of(work: Import, file: SheetFile, settings: ImportSettings) -> ImportR
         rows=len(table.rows),
         customers=len(work.stops),
         shipments=len(work.shipments),
-        columns=[_column_reply(table, column, style) for column in work.columns],
+        columns=_column_replies(work),
         day=style.day.isoformat() if style.day else None,
         doubts=[_doubt_reply(doubt) for doubt in work.doubts],
         questions=[QuestionReply.of(asked) for asked in work.asking.asked],
@@ -49,11 +50,17 @@ def reply_of(work: Import, file: SheetFile, settings: ImportSettings) -> ImportR
     )
 
 
-def _column_reply(table: Table, column: Column, style: Style) -> ColumnReply:
+def _column_replies(work: Import) -> list[ColumnReply]:
+    is_named = any(column.meaning == "name" for column in work.columns)
+    return [_column_reply(work.table, column, work.style, is_named) for column in work.columns]
+
+
+def _column_reply(table: Table, column: Column, style: Style, is_named: bool) -> ColumnReply:
     cells = table.column(column.index)
     return ColumnReply(
         column=letters(column.index), heading=column.heading, meaning=column.meaning,
         unit=column.unit, confidence=column.confidence,
+        certainty=certainty_of(column, [raw for _, raw in cells], is_named),
         examples=[_example(table, row, raw, column, style) for row, raw in _telling(cells)],
         doubts=[_doubt_reply(doubt) for doubt in column.doubts])
 

@@ -4,6 +4,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 from datetime import date
 from functools import lru_cache
+from math import isclose
 from typing import Any
 
 from app.formats.sheets.cells import CellError, MisreadError, Raw, cell_name, letters
@@ -107,15 +108,34 @@ def days_in(rows: Sequence[Row]) -> list[date]:
 
 
 def sums_in(rows: Sequence[Row]) -> list[Row]:
-    """Return the rows that sum up others: they are called so, and have no place or the last."""
-    found = []
+    """Return the rows that sum up others.
+
+    They are called so, and have no place or are the last; or the last holds no more than the sums
+    of all above.
+    """
+    found = [rows[-1]] if len(rows) > 2 and _sums_up(rows[-1], rows[:-1]) else []
     for place, row in enumerate(rows):
         texts = [simple(value) for value in row.values.values() if isinstance(value, str)]
         is_called = any(text.split()[:1] and text.split()[0] in TOTALS for text in texts)
-        if is_called and (place == len(rows) - 1 or not any(map(row.get, PLACED))):
+        is_last = place == len(rows) - 1
+        if is_called and row not in found and (is_last or not any(map(row.get, PLACED))):
             found.append(row)
     return found
 
+
+def _sums_up(last: Row, others: Sequence[Row]) -> bool:
+    """Tell whether a row holds amounts, each the sum of its column, and no more than a name."""
+    stated = {meaning: value for meaning, value in last.values.items()
+              if (any(part is not None for part in value) if isinstance(value, list) else True)}
+    if not stated.keys() <= {*AMOUNTS, "name"} or last.errors:
+        return False
+    sums = [(amount, sum(row.values[meaning][place] or 0 for row in others))
+            for meaning in AMOUNTS & stated.keys() for place, amount in enumerate(stated[meaning])
+            if amount is not None]
+    return bool(sums) and all(isclose(amount, total, rel_tol=1e-6) for amount, total in sums)
+
+
+AMOUNTS = {"demand", "pickup"}
 
 PLACED = ("latitude", "point", "x", "address", "street", "town", "postcode")
 

@@ -132,6 +132,9 @@ class ExampleReply(_Reply):
     read: str | None = Field(description="What was read. Null: it can't be read.")
 
 
+Certainty = Literal["stated", "sure", "doubtful", "open", "unused"]
+
+
 class ColumnReply(_Reply):
     """A column and what it is taken for."""
 
@@ -140,6 +143,9 @@ class ColumnReply(_Reply):
     meaning: str = Field(description="What its cells are for.")
     unit: str | None = Field(description="Unit of bare numbers, or of amounts.")
     confidence: float = Field(description="0 to 1; 1 where the mapping states it.")
+    certainty: Certainty = Field(
+        description="`stated` by the mapping; `sure`; `doubtful`: read on one witness, look at "
+        "it; `open`: not read, though its cells may be for the plan; `unused`.")
     examples: list[ExampleReply] = Field(description="Some cells and their readings.")
     doubts: list[DoubtReply] = Field(description="What may be meant otherwise.")
 

@@ -25,9 +25,6 @@ SAMPLED_ROWS = 100
 HEADING_LINES = 10
 """Lines within which headings are looked for, to tell encodings apart."""
 
-MOST_STRANGE = 0.1
-"""Share of letters that may be of other languages, as in names."""
-
 USUAL_SIGNS = frozenset("\u20ac\u00b0\u00b2\u00b3\u00a0\u00ab\u00bb"
                         "\u2013\u2014\u2018\u2019\u201c\u201d\u201e\u2026")
 """Of all languages."""
@@ -102,18 +99,28 @@ def _encoding_of(content: bytes) -> tuple[str, bool]:
              for alike in (match, *match.submatch) if alike.encoding in ENCODINGS}
     least = min(found.values(), default=0.0)
 
-    def rank(name: str) -> tuple[int, bool, bool, int]:
-        known, is_strange = _sense_in(head, name)
-        return -known, is_strange, found[name] > least + EQUALLY_GOOD, ENCODINGS.index(name)
+    def rank(name: str) -> tuple[int, float, bool, int]:
+        known, strange = _sense_in(head, name)
+        return (-known, strange, found.get(name, 1.0) > least + EQUALLY_GOOD,
+                ENCODINGS.index(name))
 
-    return min(found, key=rank, default=ENCODINGS[0]), True
+    return min(filter(lambda name: _decodes(head, name), ENCODINGS), key=rank,
+               default=ENCODINGS[0]), True
 
 
-def _sense_in(head: bytes, encoding: str) -> tuple[int, bool]:
+def _decodes(head: bytes, encoding: str) -> bool:
+    try:
+        head.decode(encoding)
+    except UnicodeDecodeError:
+        return False
+    return True
+
+
+def _sense_in(head: bytes, encoding: str) -> tuple[int, float]:
     """Return how many cells of the first lines are headings that are known word by word.
 
-    In a short file letters tell little; words that make sense tell more. Beside it, whether there
-    are letters that the languages of these headings don't have.
+    In a short file letters tell little; words that make sense tell more. Beside it, the share of
+    letters that the languages of these headings don't have.
     """
     text = head.decode(encoding, errors="replace")
     cells = {cell.strip(' "') for line in text.splitlines()[:HEADING_LINES]
@@ -126,7 +133,7 @@ def _sense_in(head: bytes, encoding: str) -> tuple[int, bool]:
              for sign in LETTERS[language][0]}
     others = [sign for sign in text.lower() if sign >= "\x80" and sign not in USUAL_SIGNS]
     strange = sum(sign not in usual for sign in others)
-    return len(known), bool(usual) and strange > MOST_STRANGE * len(others)
+    return len(known), strange / max(len(others), 1) if usual else 0.0
 
 
 def _stated_delimiter(text: str) -> tuple[str | None, str]:

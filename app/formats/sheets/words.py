@@ -15,6 +15,9 @@ Listed = dict[str, Phrases]
 _FILE: dict[str, Any] = tomllib.loads(
     resources.files(__package__).joinpath("words.toml").read_text("utf-8"))
 
+ASIDE = frozenset(phrase for phrases in _FILE["aside"].values() for phrase in phrases)
+"""Words of headings about what no plan goes by."""
+
 WINDOW: Listed = _FILE["window"]
 BEGIN: Listed = _FILE["begin"]
 END: Listed = _FILE["end"]

@@ -1,0 +1,98 @@
+"""What of a sheet's columns is sure, what is to be looked at, and what is left aside."""
+
+import pytest
+
+from app.formats.sheets.importing import import_file
+from app.formats.sheets.schemas import ImportReply, ImportSettings
+
+
+def read(head: str, *rows: str) -> ImportReply:
+    return import_file("\n".join((head, *rows)).encode(), ImportSettings())
+
+
+def certainty(reply: ImportReply, heading: str) -> tuple[str, str]:
+    [column] = [column for column in reply.columns if column.heading == heading]
+    return column.meaning, column.certainty
+
+
+def test_known_headings_over_what_they_say_are_sure_and_stated_ones_stated() -> None:
+    reply = read("Name;Lat;Lon;kg", "A;48,1;11,5;3", "B;48,2;11,6;4")
+    assert {column.certainty for column in reply.columns} == {"sure"}
+    again = import_file(b"Name;Lat;Lon;kg\nA;48,1;11,5;3\n", ImportSettings(mapping=reply.mapping))
+    assert {column.certainty for column in again.columns} == {"stated"}
+
+
+@pytest.mark.parametrize("cell", ["7", "8:30", "48,13712", "10 min"])
+def test_an_unknown_heading_over_what_may_be_for_the_plan_is_open(cell: str) -> None:
+    reply = read("Name;Lat;Lon;Kz.", f"A;48,1;11,5;{cell}", f"B;48,2;11,6;{cell}")
+    assert certainty(reply, "Kz.") == ("ignored", "open")
+
+
+@pytest.mark.parametrize("heading", ["Preis", "Cena (Kč)", "Rating", "Tutar TL"])
+def test_prices_and_the_like_are_left_aside(heading: str) -> None:
+    reply = read(f"Name;Lat;Lon;{heading}", "A;48,1;11,5;7", "B;48,2;11,6;2014")
+    assert certainty(reply, heading) == ("ignored", "unused")
+
+
+def test_words_are_open_where_nothing_names_customers() -> None:
+    rows = "4711;Meyer;48,1;11,5", "4712;Huber;48,2;11,6"
+    assert certainty(read("Auftragsnr.;Kz.;Lat;Lon", *rows), "Kz.")[1] == "open"
+    assert certainty(read("Kunde;Kz.;Lat;Lon", *rows), "Kz.")[1] == "unused"
+
+
+def test_half_a_pair_is_doubtful_and_plans_nothing() -> None:
+    reply = read("Name;Lat;XQ", "A;48,1;11,5", "B;48,2;11,6")
+    assert certainty(reply, "Lat") == ("latitude", "doubtful")
+    assert [doubt.code for doubt in reply.columns[1].doubts] == ["HALF_PAIR"]
+    assert reply.request is None
+
+
+def test_a_begin_that_may_be_of_either_end_is_doubtful() -> None:
+    head = "Name;Pickup lat;Pickup lon;Delivery lat;Delivery lon;{}"
+    rows = "A;48,1;11,5;48,2;11,6;9:00", "B;48,2;11,6;48,3;11,7;10:00"
+    assert certainty(read(head.format("Start"), *rows), "Start") == ("earliest", "doubtful")
+    assert certainty(read(head.format("Pickup from"), *rows), "Pickup from") == (
+        "pickup_earliest", "sure")
+
+
+def test_a_heading_of_a_place_over_coordinates_is_sure() -> None:
+    reply = read("Name\tPartenza\tDestinazione", "A\t45.12, 9.12\t45.23, 9.23")
+    assert certainty(reply, "Partenza") == ("pickup_point", "sure")
+    assert certainty(reply, "Destinazione") == ("point", "sure")
+
+
+def test_before_which_time_is_no_relation() -> None:
+    reply = read("Naam;Lat;Lon;Leveren voor", "A;52,1;4,9;10:00", "B;52,2;4,8;12:30")
+    assert certainty(reply, "Leveren voor") == ("latest", "sure")
+
+
+def test_a_date_with_times_under_a_word_of_two_languages_is_when_it_closes() -> None:
+    reply = read("Cliente;Lat;Lon;Abre;Fecha", "A;-23,1;-46,1;23/11/2026 08:00;23/11/2026 12:00")
+    assert certainty(reply, "Fecha") == ("latest", "sure")
+
+
+@pytest.mark.parametrize("last", [";;;7", "Alles;;;7"])
+def test_a_last_row_of_bare_sums_is_no_customer(last: str) -> None:
+    reply = read("Name;Lat;Lon;kg", "A;48,1;11,5;3", "B;48,2;11,6;4", last)
+    assert [asked.kind for asked in reply.questions] == ["total_rows"]
+    assert reply.request is not None
+    assert len(reply.request["customers"]) == 2
+    assert read("Name;Lat;Lon;kg", "A;48,1;11,5;3", "B;48,2;11,6;4", ";;;6").request is None
+
+
+@pytest.mark.parametrize("heading", ["Ekipa", "Załoga", "Tým", "Squadra", "Équipe", "Csapat"])
+def test_crews_name_vehicles(heading: str) -> None:
+    reply = read(f"Name;Lat;Lon;{heading}", "A;48,1;11,5;E1", "B;48,2;11,6;E2")
+    assert certainty(reply, heading) == ("vehicles", "sure")
+
+
+@pytest.mark.parametrize(("encoding", "name"), [
+    ("cp1250", "Őrség Patika"), ("iso8859_2", "Świat Książki"), ("cp1254", "Doğan Şehir"),
+    ("mac_roman", "Löwe Größ"), ("cp1252", "Löwe Größ")])
+def test_letters_are_told_by_those_of_the_headings_language(encoding: str, name: str) -> None:
+    head = {"cp1250": "Partner;Raklap", "iso8859_2": "Odbiorca;Waga", "cp1254": "Firma;Koli"}.get(
+        encoding, "Kunde;Menge")
+    content = f"{head};Lat;Lon\n{name};3;48,1;11,5\n".encode(encoding)
+    reply = import_file(content, ImportSettings())
+    assert reply.request is not None
+    assert reply.request["customers"][0]["id"] == name
