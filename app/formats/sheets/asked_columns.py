@@ -63,15 +63,16 @@ def ask_columns(table: Table, columns: Sequence[Column], style: Style,
         examples = list(dict.fromkeys(shown(raw)[:60] for _, raw in cells[:SAMPLED]))[:4]
         asking.ask(Question(
             name, "column", f"Column {column.name} is not used: what does it mean?",
-            _choices(column, [raw for _, raw in cells[:SAMPLED]], style), IGNORED,
+            choices_of(column, [raw for _, raw in cells], style), IGNORED,
             {"column": letters(column.index), "heading": column.heading[:200],
              "count": len(cells)},
             column=letters(column.index), cell=table.name(cells[0][0], column.index),
             examples=tuple(examples), also=frozenset(MEANINGS)), IGNORED if is_stated else None)
 
 
-def _choices(column: Column, cells: Sequence[Raw], style: Style) -> dict[str, str]:
+def choices_of(column: Column, cells: Sequence[Raw], style: Style) -> dict[str, str]:
     """Return what a column may mean, the likeliest first."""
+    cells = cells[:SAMPLED]
     by_heading = [guess.meaning for guess in guesses(column.heading)
                   if guess.score >= LIKELY][:MOST_BY_HEADING]
     by_cells = [meaning for meaning in BY_CELLS if _all_say(cells, meaning, style)][:MOST_BY_CELLS]

@@ -11,7 +11,7 @@ from app.formats.sheets.clocks import Style
 from app.formats.sheets.headings import HEADING, guesses, simple
 from app.formats.sheets.layout import Table
 from app.formats.sheets.links import is_link, place_of
-from app.formats.sheets.meanings import MEANINGS, MONEY, PLACES, SIDES, meaning_at
+from app.formats.sheets.meanings import MEANINGS, MONEY, PAIRS, PLACES, meaning_at
 from app.formats.sheets.numbers import own_unit
 from app.formats.sheets.readers import NO, ORDER_KINDS, YES, read, ticked_kind
 from app.formats.sheets.schemas import ColumnMapping
@@ -35,12 +35,6 @@ MOST = 0.7
 
 FETCHED = {meaning_at("pickup", part) for part in ("latitude", "point", "x", "address")}
 """Columns of which one tells that goods are fetched elsewhere."""
-
-PAIRS = {one: other for first, second in (("latitude", "longitude"), ("x", "y"))
-         for one, other in ((first, second), (second, first))}
-PAIRS |= {meaning_at(side, one): meaning_at(side, other)
-          for side in SIDES for one, other in PAIRS.items()}
-"""Columns that say nothing alone."""
 
 BY_CONTENT = 0.5
 """Most confidence in a meaning that no heading states."""
@@ -130,7 +124,8 @@ def _doubt_ends(columns: dict[int, Column]) -> None:
         if column.confidence == 1:
             continue
         others = PAIRS.get(column.meaning)
-        lacks = others is not None and others not in meanings
+        lacks = (others is not None and MEANINGS[column.meaning].kind in ("degrees", "number")
+                 and others not in meanings)
         if lacks or (column.meaning in ("earliest", "window") and meanings & FETCHED):
             code, told = ("HALF_PAIR", f"no column is its {others}") if lacks else (
                 "WHICH_END", "it doesn't say of which of the two places it is")

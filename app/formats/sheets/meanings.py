@@ -123,4 +123,13 @@ MEANINGS |= {meaning_at(side, own): replace(MEANINGS[own],
 PLACES = ({"latitude", "longitude"}, {"point"}, {"x", "y"})
 """Columns that tell where customers are."""
 
+_PAIRED = (("latitude", "longitude"), ("x", "y"), ("earliest", "latest"))
+PAIRS = {one: other for pair in _PAIRED for one, other in (pair, pair[::-1])}
+PAIRS |= {meaning_at(side, one): meaning_at(side, other)
+          for side in SIDES for one, other in PAIRS.items()}
+PAIRS |= {one: other for place in ("point", "address")
+          for one, other in ((place, meaning_at("pickup", place)),
+                             (meaning_at("pickup", place), place))}
+"""Columns of which one completes the other; coordinates say nothing alone."""
+
 UNITS = meant(UNIT_WORDS)

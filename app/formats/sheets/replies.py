@@ -1,14 +1,16 @@
 """What an import answers."""
 
 from collections import Counter
+from collections.abc import Mapping as MappingType
 from collections.abc import Sequence
 
+from app.formats.sheets.asked_columns import choices_of
 from app.formats.sheets.cells import Doubt, MisreadError, Raw, letters, shown
 from app.formats.sheets.certainty import certainty_of
 from app.formats.sheets.clocks import Style
 from app.formats.sheets.columns import Column
 from app.formats.sheets.layout import Table
-from app.formats.sheets.meanings import MEANINGS
+from app.formats.sheets.meanings import MEANINGS, PAIRS
 from app.formats.sheets.readers import read, reading_text
 from app.formats.sheets.schemas import (
     ColumnMapping, ColumnReply, DoubtReply, ExampleReply, ImportReply, ImportSettings, Mapping,
@@ -20,6 +22,7 @@ from app.schemas.response import WarningReply
 
 EXAMPLES = 4
 MOST_LISTED = 1000
+ROWS_SHOWN = 6
 
 
 def reply_of(work: Import, file: SheetFile, settings: ImportSettings) -> ImportReply:
@@ -35,6 +38,7 @@ def reply_of(work: Import, file: SheetFile, settings: ImportSettings) -> ImportR
         customers=len(work.stops),
         shipments=len(work.shipments),
         columns=_column_replies(work),
+        table_rows=[row + 1 for row in table.rows[:ROWS_SHOWN]],
         day=style.day.isoformat() if style.day else None,
         doubts=[_doubt_reply(doubt) for doubt in work.doubts],
         questions=[QuestionReply.of(asked) for asked in work.asking.asked],
@@ -51,16 +55,23 @@ def reply_of(work: Import, file: SheetFile, settings: ImportSettings) -> ImportR
 
 
 def _column_replies(work: Import) -> list[ColumnReply]:
-    is_named = any(column.meaning == "name" for column in work.columns)
-    return [_column_reply(work.table, column, work.style, is_named) for column in work.columns]
+    where = {column.meaning: letters(column.index) for column in work.columns}
+    return [_column_reply(work.table, column, work.style, where) for column in work.columns]
 
 
-def _column_reply(table: Table, column: Column, style: Style, is_named: bool) -> ColumnReply:
+def _column_reply(table: Table, column: Column, style: Style,
+                  where: MappingType[str, str]) -> ColumnReply:
     cells = table.column(column.index)
+    raws = [raw for _, raw in cells]
+    first = [(row, table.cell(row, column.index)) for row in table.rows[:ROWS_SHOWN]]
     return ColumnReply(
         column=letters(column.index), heading=column.heading, meaning=column.meaning,
         unit=column.unit, confidence=column.confidence,
-        certainty=certainty_of(column, [raw for _, raw in cells], is_named),
+        certainty=certainty_of(column, raws, "name" in where),
+        pair=where.get(PAIRS.get(column.meaning, "")),
+        likely=list(choices_of(column, raws, style)),
+        cells=[None if raw is None else _example(table, row, raw, column, style)
+               for row, raw in first],
         examples=[_example(table, row, raw, column, style) for row, raw in _telling(cells)],
         doubts=[_doubt_reply(doubt) for doubt in column.doubts])
 

@@ -146,7 +146,12 @@ class ColumnReply(_Reply):
     certainty: Certainty = Field(
         description="`stated` by the mapping; `sure`; `doubtful`: read on one witness, look at "
         "it; `open`: not read, though its cells may be for the plan; `unused`.")
-    examples: list[ExampleReply] = Field(description="Some cells and their readings.")
+    pair: str | None = Field(description="Letters of the column that completes it, such as the "
+                             "longitude of a latitude, or the end of a begin.")
+    likely: list[str] = Field(description="What else it may mean, the likeliest first.")
+    cells: list[ExampleReply | None] = Field(
+        description="Its cells in `table_rows`, and what was made of them. Null: an empty one.")
+    examples: list[ExampleReply] = Field(description="Some cells that look different, likewise.")
     doubts: list[DoubtReply] = Field(description="What may be meant otherwise.")
 
 
@@ -239,6 +244,7 @@ class ImportReply(_Reply):
     customers: int = Field(description="Customers that they make.")
     shipments: int = Field(description="Shipments that they make.")
     columns: list[ColumnReply] = Field(description="Columns that hold anything.")
+    table_rows: list[int] = Field(description="The first rows below the headings, counted from 1.")
     day: str | None = Field(description="Day that is planned, if the file or you state one.")
     doubts: list[DoubtReply] = Field(description="What was guessed or assumed beside the columns.")
     questions: list[QuestionReply] = Field(

@@ -96,3 +96,17 @@ def test_letters_are_told_by_those_of_the_headings_language(encoding: str, name:
     reply = import_file(content, ImportSettings())
     assert reply.request is not None
     assert reply.request["customers"][0]["id"] == name
+
+
+def test_the_first_rows_are_told_as_they_are_and_as_they_were_read() -> None:
+    reply = read("Name;Lat;Lon;von;bis;XQ", "A;48,1;11,5;8:30;10:00;", ";;;;;",
+                 *(f"C{row};48,2;11,6;;9.15;7" for row in range(9)))
+    assert reply.table_rows == [2, 4, 5, 6, 7, 8]
+    told = {column.heading: column for column in reply.columns}
+    assert {column.pair for column in reply.columns} == {None, "B", "C", "D", "E"}
+    assert (told["Lat"].pair, told["bis"].pair) == ("C", "D")
+    ends = [cell and (cell.cell, cell.raw, cell.read) for cell in told["bis"].cells]
+    assert ends[:2] == [("E2", "10:00", "10:00"), ("E4", "9.15", "9:15")]
+    assert told["XQ"].cells[0] is None
+    assert told["XQ"].likely[-2:] == ["info", "ignored"]
+    assert "demand" in told["XQ"].likely
