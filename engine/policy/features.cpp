@@ -135,7 +135,7 @@ void describe_customer(const Situation& now, Int node, const Outlook& outlook,
     feature.working_slack =
         to_float(slack(usual_working(setting.type), outlook.end - departure, unit.time));
     if (limits_travel(setting.type)) {
-        const Int used = vehicle.travel + travel_of(setting, vehicle.node, node) +
+        const Int used = vehicle.legs.duration + travel_of(setting, vehicle.node, node) +
                          travel_of(setting, node, setting.type.ends_at);
         left = std::min(static_cast<double>(feature.working_slack),
                         slack(longest_travel(setting.type), used, unit.time));
@@ -297,7 +297,7 @@ void describe_vehicle(const Scene& scene, const State& state, Int r, double unse
     const Setting setting = setting_of(instance, b, vehicle.type);
     const Unit unit = unit_of(scale, b);
     if (limits_travel(type)) {
-        const double left = slack(longest_travel(type), vehicle.travel, unit.time);
+        const double left = slack(longest_travel(type), vehicle.legs.duration, unit.time);
         seen.working_slack = to_float(std::min(static_cast<double>(seen.working_slack), left));
     }
     describe_duty(duty_of(instance, state, r, setting, unit, log), clock, seen);

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "rules/clock.h"
+#include "rules/leg.h"
 #include "rules/rates.h"
 #include "vectors.h"
 
@@ -91,7 +92,10 @@ inline Int longest_trip(const VehicleType& type) { return type.max_trip_distance
 // Whether the time of a vehicle on legs is limited.
 inline bool limits_travel(const VehicleType& type) { return type.max_travel_duration < unlimited; }
 
-// Whether that is limited, and hangs on when legs are driven.
+// Whether a vehicle's legs are limited, on all its trips together.
+inline bool limits_legs(const VehicleType& type) { return limits_travel(type); }
+
+// Whether the time on legs is limited, and hangs on when they are driven.
 inline bool limits_timed_travel(const VehicleType& type) {
     return limits_travel(type) && !is_steady(type);
 }
@@ -99,6 +103,11 @@ inline bool limits_timed_travel(const VehicleType& type) {
 // Whether a vehicle may be on legs so long, on all its trips together.
 inline bool may_travel(const VehicleType& type, Int travel) {
     return travel <= type.max_travel_duration;
+}
+
+// Whether a vehicle may drive such legs, without setups, on all its trips together.
+inline bool may_drive_all(const VehicleType& type, Leg legs) {
+    return may_travel(type, legs.duration);
 }
 
 // How long a vehicle may be on legs, on all its trips together, `unlimited` if ever.

@@ -147,7 +147,7 @@ Int legal_services(const Rollout& rollout, View<Int, 1> actions, View<Outlook, 1
     const Int reach = longest_trip(setting.type) - vehicle.distance;
     const Int began = is_idle ? 0 : log.trip[trips - 1].start;
     ServicesLeft room = room_of(open);
-    if (is_idle && !may_travel_home(setting, vehicle.travel, here)) room.sortie = false;
+    if (is_idle && !may_drive_home(setting, vehicle.legs, here)) room.sortie = false;
     std::optional<Int> earliest;
     if (trips > 0) earliest = first_departure(setting, log, log.trip[0].start);
     const Int last = last_aboard(open);
@@ -176,7 +176,7 @@ Int legal_services(const Rollout& rollout, View<Int, 1> actions, View<Outlook, 1
         // Whoever has parcels aboard goes home by their places, maybe where no way leads straight.
         const bool is_near = laden || is_pickup(setting.pair, node) ||
                              (legs(here, node) + legs(node, home) <= reach &&
-                              may_travel_by(setting, vehicle.travel, here, node));
+                              may_drive_by(setting, vehicle.legs, here, node));
         if (room.stop && instance.can_drive(b, k, node) && is_near) {
             const Verdict verdict =
                 is_held ? Verdict::unsure : judge_drive(open, earliest, node, outlooks[found]);
@@ -344,9 +344,9 @@ void apply(const Instance& instance, State& state, Int r, Int action) {
         launch(open, target);
     } else {
         Vehicle& vehicle = open.vehicle;
-        const Int travel = open.setting.type.travel;
-        vehicle.distance += instance.distance(b, travel, vehicle.node, target);
-        vehicle.travel += travel_of(open.setting, vehicle.node, target);
+        const Leg way = leg_of(open.setting, vehicle.node, target);
+        vehicle.distance += way.distance;
+        vehicle.legs = vehicle.legs + way;
         drive(open, target);
     }
     improve_departure(open);

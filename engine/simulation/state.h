@@ -3,6 +3,7 @@
 
 #include "rows.h"
 #include "rules/flight.h"
+#include "rules/leg.h"
 
 namespace tandem {
 
@@ -66,7 +67,7 @@ struct Vehicle {
     Int crew;               // end of the recoveries here
     Int free;               // end of the launches after them as if none was held back
     Int distance;           // of the trip
-    Int travel;             // on legs, of all trips
+    Leg legs;               // of all trips, as one, without setups
     Int start_best;         // latest known start of the first trip that costs nothing
     Int departure_best;     // the departure that follows from it
     Int next_start;         // earliest start of the next trip

@@ -207,10 +207,15 @@ bool any_order(const Setting& setting, View<const Int, 2> legs, Int here, Dues d
     return visit(one_by_one(dues)) || visit(by_nearness(legs, here, std::move(dues)));
 }
 
-// How far a trip has come, and how long the vehicle has been on legs.
+// How far a trip has come, and what the vehicle has driven on all its trips.
 struct TripProgress {
     Int distance;
-    Int travel;
+    Leg legs;
+
+    void drive(Leg leg) {
+        distance += leg.distance;
+        legs = legs + leg;
+    }
 };
 
 // How many customers the truck has served on its trip.
@@ -224,12 +229,11 @@ bool is_within_reach(const OpenVehicle& open, View<const Int, 2> legs, TripProgr
     const VehicleType& type = open.setting.type;
     Int here = open.vehicle.node;
     for (const Int node : order) {
-        way.distance += legs(here, node);
-        way.travel += travel_of(open.setting, here, node);
+        way.drive(leg_of(open.setting, here, node));
         here = node;
     }
     return way.distance + legs(here, type.ends_at) <= longest_trip(type) &&
-           may_travel_home(open.setting, way.travel, here) &&
+           may_drive_home(open.setting, way.legs, here) &&
            allows_stops(type, served_on_trip(open.log) + static_cast<Int>(order.size()));
 }
 
@@ -301,12 +305,9 @@ bool legal_by_trial(const Rollout& rollout, Int reload, Service service, Outlook
     const auto& [setting, vehicle, log, drones] = open;
     const View<const Int, 2> legs = instance.distance[b][setting.type.travel];
     const Int start = reload == no_reload ? vehicle.node : reload;
-    TripProgress way = {reload == no_reload ? vehicle.distance : 0, vehicle.travel};
-    if (reload != no_reload) way.travel += travel_of(setting, vehicle.node, reload);
-    if (!by_drone) {
-        way.distance += legs(start, node);
-        way.travel += travel_of(setting, start, node);
-    }
+    TripProgress way = {reload == no_reload ? vehicle.distance : 0, vehicle.legs};
+    if (reload != no_reload) way.legs = way.legs + leg_of(setting, vehicle.node, reload);
+    if (!by_drone) way.drive(leg_of(setting, start, node));
     if (!attempt(rollout, open, reload, service)) return false;
     const Int here = log.count.stops - 1;
     const Order aboard = some_paired(setting.pair) ? parcels_aboard(setting, log) : Order();
@@ -343,17 +344,17 @@ bool may_reload(const Rollout& rollout, Int place, Outlook& outlook) {
     const Size& size = instance.size[b];
     const View<const Goods, 1> goods = instance.goods[b];
     const Setting setting = setting_of(instance, b, k);
-    const Int travel = vehicle.travel + travel_of(setting, vehicle.node, place);
+    const Leg driven = vehicle.legs + leg_of(setting, vehicle.node, place);
     for (Int node = size.depots; node < size.depots + size.customers; ++node) {
         if (state.served(r, node) || is_delivery(instance.pair[b], node)) continue;
         if (some_apart(goods) && !may_follow(goods[node], vehicle)) continue;
         if (instance.can_drive(b, k, node) && legs(place, node) + legs(node, home) <= reach &&
-            may_travel_by(setting, travel, place, node) &&
+            may_drive_by(setting, driven, place, node) &&
             legal_by_trial(rollout, place, {node, false}, outlook)) {
             return true;
         }
         if (instance.can_fly(b, k, node) && legs(place, home) <= reach &&
-            may_travel_home(setting, travel, place) &&
+            may_drive_home(setting, driven, place) &&
             legal_by_trial(rollout, place, {node, true}, outlook)) {
             return true;
         }

@@ -76,16 +76,21 @@ inline Int travel_of(const Setting& setting, Int origin, Int to) {
     return setting.drive(origin, to) - setup;
 }
 
-// Whether a vehicle that has been on legs for so long may go home from a node.
-inline bool may_travel_home(const Setting& setting, Int travel, Int here) {
-    return !limits_travel(setting.type) ||
-           may_travel(setting.type, travel + travel_of(setting, here, setting.type.ends_at));
+// A leg of the truck, likewise.
+inline Leg leg_of(const Setting& setting, Int origin, Int to) {
+    return {travel_of(setting, origin, to), setting.distances(setting.type.travel, origin, to)};
+}
+
+// Whether a vehicle that has driven such legs may go home from a node.
+inline bool may_drive_home(const Setting& setting, Leg legs, Int here) {
+    return !limits_legs(setting.type) ||
+           may_drive_all(setting.type, legs + leg_of(setting, here, setting.type.ends_at));
 }
 
 // Whether it may go to a node first.
-inline bool may_travel_by(const Setting& setting, Int travel, Int here, Int node) {
-    return !limits_travel(setting.type) ||
-           may_travel_home(setting, travel + travel_of(setting, here, node), node);
+inline bool may_drive_by(const Setting& setting, Leg legs, Int here, Int node) {
+    return !limits_legs(setting.type) ||
+           may_drive_home(setting, legs + leg_of(setting, here, node), node);
 }
 
 // When a leg ends, by when it begins, without setup.

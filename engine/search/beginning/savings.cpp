@@ -66,7 +66,7 @@ void set_up_chain(const Chains& chains, Int node) {
         .last = node,
         .length = 1,
         .busy = place.service_duration(),
-        .travel = 0,
+        .legs = {},
     };
 }
 
@@ -80,15 +80,15 @@ Int working(const Chains& chains, const Joint& joint) {
     return leg(legs, type.begins_at, head).duration + busy + leg(legs, tail, type.ends_at).duration;
 }
 
-// Tells whether a vehicle may be on legs for so long that drives two routes as one.
-bool may_travel_as_one(const ProblemData& data, const Chains& chains, const Joint& joint) {
+// Tells whether a vehicle may drive all legs of two routes as one.
+bool may_drive_as_one(const ProblemData& data, const Chains& chains, const Joint& joint) {
     const VehicleType& type = chains.type;
-    return !limits_travel(type) ||
-           may_travel(type, travel_between(data, type, type.begins_at, joint.head) +
-                                chains.chain[joint.head].travel +
-                                travel_between(data, type, joint.a, joint.b) +
-                                chains.chain[joint.b].travel +
-                                travel_between(data, type, joint.tail, type.ends_at));
+    return !limits_legs(type) ||
+           may_drive_all(type, leg_between(data, type, type.begins_at, joint.head) +
+                                   chains.chain[joint.head].legs +
+                                   leg_between(data, type, joint.a, joint.b) +
+                                   chains.chain[joint.b].legs +
+                                   leg_between(data, type, joint.tail, type.ends_at));
 }
 
 // Returns how much later who flies by itself has to begin two routes as one trip than at `start`,
@@ -293,12 +293,12 @@ void join(const ProblemData& data, Int k, Int ranks, View<const Int, 1> keys,
         const Int length = head.length + chain[b].length;
         if (joint.head == b || !allows_stops(type, length) ||
             !may_join(type, cargo[joint.head], cargo[b]) ||
-            !may_work(type, working(chains, joint)) || !may_travel_as_one(data, chains, joint) ||
+            !may_work(type, working(chains, joint)) || !may_drive_as_one(data, chains, joint) ||
             (flies(type) && !flies_as_one(data, chains, joint))) {
             continue;
         }
         head.busy += way + chain[b].busy;
-        head.travel += travel_between(data, type, a, b) + chain[b].travel;
+        head.legs = head.legs + leg_between(data, type, a, b) + chain[b].legs;
         link_up(chains, joint);
         head.length = length;
         add_cargo(cargo[joint.head], cargo[b]);

@@ -5,6 +5,7 @@
 #pragma once
 
 #include "rows.h"
+#include "rules/leg.h"
 #include "rules/load.h"
 #include "search/route/layout.h"
 
@@ -20,7 +21,7 @@ struct Chain {
     Int last;    // of its first customer, the last
     Int length;  // likewise, how many there are
     Int busy;    // likewise, how long to serve them and to drive from one to the next takes
-    Int travel;  // likewise, how long the legs between them are
+    Leg legs;    // likewise, the legs between them as one
 };
 
 // Who comes before and behind each customer, (2, node).

@@ -184,10 +184,10 @@ double price_part(const ProblemData& data, const Fleet& fleet, Int slot, Changed
     }
     const double longer = longer_cost(type, data.rate[k], route, *whole);
     if (longer == infeasible) return infeasible;
-    if (limits_travel(type)) {
-        const Int changed = travel_on(data, type, fleet.stop[to], 0, fleet.route[to].length - 1) -
-                            travel_on(data, type, old, part.first, part.last);
-        if (!may_travel(type, route.travel + changed)) return infeasible;
+    if (limits_legs(type)) {
+        const Leg changed = legs_on(data, type, fleet.stop[to], 0, fleet.route[to].length - 1) -
+                            legs_on(data, type, old, part.first, part.last);
+        if (!may_drive_all(type, route.legs + changed)) return infeasible;
     }
     for (Int p = part.first; p < part.last; ++p) driven -= old[p].leg;
     double cost = double(driven) * data.rate[k].distance + longer;

@@ -32,8 +32,8 @@ double follow(const ProblemData& data, const Route& route, View<const Stop, 1> s
 }  // namespace
 
 void RarerRules::drive(const OnTrip& on, Int behind, Int to, const Leg& leg) {
-    if (limits_travel(on.type)) {
-        travel_ += travel_between(on.data, on.type, here(on, behind), to);
+    if (limits_legs(on.type)) {
+        legs_ = legs_ + leg_between(on.data, on.type, here(on, behind), to);
     }
     if (loads_cost(on.data, on.route.type)) {
         const Int load = on.fleet.stop_load(on.slot, 0, behind).aboard[0] + on.type.carried;
@@ -64,8 +64,8 @@ void RarerRules::serve(const OnTrip& on, const Whereabouts& at, const Newcomer& 
 void RarerRules::pass(const OnTrip& on, const Whereabouts& at, const Leg& leg) {
     const Stop &stop = on.stops[at.behind], &next = on.stops[at.behind + 1];
     drive(on, at.behind, next.node, leg);
-    if (limits_travel(on.type)) {
-        travel_ -= travel_between(on.data, on.type, stop.node, next.node);
+    if (limits_legs(on.type)) {
+        legs_ = legs_ - leg_between(on.data, on.type, stop.node, next.node);
     }
     if (loads_cost(on.data, on.route.type)) {
         const View<const StopLoad, 1> stop_loads = on.fleet.stop_load[on.slot][0];
@@ -83,12 +83,11 @@ void RarerRules::pass(const OnTrip& on, const Whereabouts& at, const Leg& leg) {
 }
 
 bool RarerRules::allow(const OnTrip& on, const Whereabouts& at, const Leg& leg) const {
-    if (limits_travel(on.type)) {
+    if (limits_legs(on.type)) {
         const Int next = on.stops[at.behind + 1].node;
-        const Int travel = on.route.travel + travel_ +
-                           travel_between(on.data, on.type, here(on, at.behind), next) -
-                           travel_between(on.data, on.type, on.stops[at.behind].node, next);
-        if (!may_travel(on.type, travel)) return false;
+        const Leg more = leg_between(on.data, on.type, here(on, at.behind), next) -
+                         leg_between(on.data, on.type, on.stops[at.behind].node, next);
+        if (!may_drive_all(on.type, on.route.legs + legs_ + more)) return false;
     }
     if (bounds_trips(on.type)) {
         if (here_ != nowhere) inserted_[std::size_t(count_ - 1)].on = leg.duration;

@@ -26,7 +26,7 @@ struct OnTrip {
           evaluation(data.evaluation[route.type]),
           places(data.place.by_truck(type)),
           asks_more(evaluation.priced || bounds_trips(type) || bounds_reach(type) ||
-                    limits_travel(type)) {}
+                    limits_legs(type)) {}
 
     const ProblemData& data;
     const Fleet& fleet;
@@ -91,7 +91,7 @@ private:
     bool is_near_ = true;   // to where the trip begins and ends
     Int count_ = 0;         // of those inserted
     Int here_ = nowhere;    // who was inserted behind that stop last
-    Int travel_ = 0;        // longer on the way
+    Leg legs_{};            // more of them, without setups
     Int aboard_ = 0;        // more than there was
     double carried_ = 0.0;  // more, by the way
     double windows_ = 0.0;  // what lateness and waiting cost more

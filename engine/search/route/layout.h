@@ -17,6 +17,7 @@
 #include "deadline.h"
 #include "rows.h"
 #include "rules/fairness.h"
+#include "rules/leg.h"
 #include "rules/load.h"
 #include "rules/window.h"
 #include "search/route/move.h"
@@ -112,7 +113,7 @@ struct Route {
     Int end;
     Int cum;
     Int working;
-    Int travel;  // on legs, if that is limited
+    Leg legs;  // all of them as one, without setups, if they are limited
     Int offset;
     Int awaited;
     Int unpaid;   // breaks

@@ -79,7 +79,7 @@ bool drive_with_pauses(const ProblemData& data, Route& route, View<Stop, 1> stop
     route.driving = 0;
     const bool driven = drive_as_placed(data, route, stops, sorties);
     if (driven) {
-        const Int driving = follows_driver(type) ? route.travel
+        const Int driving = follows_driver(type) ? route.legs.duration
                             : has_driving_rules(type)
                                 ? driving_on(data, type, stops.first(route.length))
                                 : 0;

@@ -80,19 +80,19 @@ Int timed_travel(const Truck& truck, View<const Stop, 1> stops) {
 
 }  // namespace
 
-Int travel_between(const ProblemData& data, const VehicleType& type, Int from, Int to) {
+Leg leg_between(const ProblemData& data, const VehicleType& type, Int from, Int to) {
     const Int setup = is_steady(type) ? setup_after(data.setup, from, to) : 0;
-    return leg(legs_of(data.leg, type.travel), from, to).duration - setup;
+    return leg(legs_of(data.leg, type.travel), from, to) - Leg{setup, 0};
 }
 
-Int travel_on(const ProblemData& data, const VehicleType& type, View<const Stop, 1> stops,
-              Int first, Int last) {
-    Int travel = 0;
+Leg legs_on(const ProblemData& data, const VehicleType& type, View<const Stop, 1> stops, Int first,
+            Int last) {
+    Leg legs{};
     for (Int p = first; p < last; ++p) {
         if (stops[p].kind == end_stop) continue;
-        travel += travel_between(data, type, stops[p].node, stops[p + 1].node);
+        legs = legs + leg_between(data, type, stops[p].node, stops[p + 1].node);
     }
-    return travel;
+    return legs;
 }
 
 bool load_trips(const ProblemData& data, Route& route, View<Stop, 1> stops, View<Trip, 1> trips,
@@ -144,9 +144,9 @@ bool load_trips(const ProblemData& data, Route& route, View<Stop, 1> stops, View
     }
     route.trips = index + 1;
     route.placed = breaks_by_end;
-    if (limits_travel(type)) {
-        route.travel = travel_on(data, type, stops, 0, route.length - 1);
-        if (!may_travel(type, route.travel)) return false;
+    if (limits_legs(type)) {
+        route.legs = legs_on(data, type, stops, 0, route.length - 1);
+        if (!may_drive_all(type, route.legs)) return false;
     }
     return !has_halts(data) || halts_in_order(data, route, stops, sorties);
 }
@@ -196,8 +196,8 @@ bool drive_as_placed(const ProblemData& data, Route& route, View<Stop, 1> stops,
     route.cum = stops[length - 1].cum;
     route.awaited = sums.awaited;
     if (!truck.follows && !limits_timed_travel(truck.type)) return true;
-    route.travel = timed_travel(truck, stops);
-    return may_travel(truck.type, route.travel);
+    route.legs.duration = timed_travel(truck, stops);
+    return may_travel(truck.type, route.legs.duration);
 }
 
 void look_back(const ProblemData& data, const Route& route, View<Stop, 1> stops) {

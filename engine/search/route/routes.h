@@ -29,11 +29,11 @@ inline void carry(const ProblemData& data, Trip& trip, Int node) {
     add_load(trip, demand_of(place));
 }
 
-// Return how long a truck is on a leg, without setup, where speeds don't change.
-Int travel_between(const ProblemData& data, const VehicleType& type, Int from, Int to);
+// Return a leg of a truck, without setup, where speeds don't change.
+Leg leg_between(const ProblemData& data, const VehicleType& type, Int from, Int to);
 
-// Return how long it is on the legs from one stop of a route to another.
-Int travel_on(const ProblemData& data, const VehicleType& type, View<const Stop, 1> stops,
+// Return its legs from one stop of a route to another, as one.
+Leg legs_on(const ProblemData& data, const VehicleType& type, View<const Stop, 1> stops,
               Int first, Int last);
 
 // Write loads, releases and distances of the trips. In place; false if one is too much.
