@@ -42,7 +42,7 @@ SYNONYMS = {
     "prize": "unassigned_cost", "phone": "info", "address": "info", "notes": "info",
     "start": "earliest", "begin": "earliest", "from": "earliest", "end": "latest", "to": "latest",
     "due": "latest", "speed": "speed_kmh", "max_trip": "max_trips", "type": "id",
-    "max_tasks": "max_stops", "max_distance": "max_trip_distance", "working_hours": "shift",
+    "max_tasks": "max_stops", "working_hours": "shift",
     "max_travel_time": "max_travel_duration", "max_duration": "max_working_duration",
     "battery": "energy", "range": "endurance", "timeout": "time_limit", "iterations":
     "search_iterations", "matrix": "matrices", "no_fly": "airspace", "wind": "airspace",

@@ -246,6 +246,10 @@ class VehicleTypeInput(Input):
         description="Longest time on legs in seconds, of all trips of a vehicle: without service, "
         "waiting, setups and breaks. Null: no limit.",
     )
+    max_distance: Metres | None = Field(
+        None, description="Longest drive of all trips of a vehicle together, in metres. Null: no "
+        "limit.",
+    )
     max_trip_distance: Metres | None = Field(
         None, description="Longest drive of one trip in metres. Null: no limit."
     )

@@ -161,6 +161,12 @@ def limit_driving(rng: random.Random, request: Data) -> None:
             kind["max_travel_duration"] = rng.choice((2400, 4800))
 
 
+def limit_ways(rng: random.Random, request: Data) -> None:
+    """Limit how far vehicles drive on all their trips. In place."""
+    for kind in request["fleet"]:
+        kind["max_distance"] = rng.choice((15_000, 40_000))
+
+
 def price_lateness(rng: random.Random, request: Data) -> None:
     """Let being late cost, once and by the hour. In place."""
     for customer in some(rng, request["customers"]):
@@ -276,7 +282,8 @@ OF_A_DAY: dict[str, Change] = {
     "shipments": ship, "vehicle_costs": prefer_vehicles, "together": go_together,
     "apart": keep_apart, "before": put_in_order, "alternatives": offer_places, "breaks": rest,
     "driving_rules": keep_driving_rules, "makespan": pay_for_the_end, "balance": share_work,
-    "depot_hours": open_depots, "max_travel_duration": limit_driving, "late_cost": price_lateness,
+    "depot_hours": open_depots, "max_travel_duration": limit_driving,
+    "max_distance": limit_ways, "late_cost": price_lateness,
     "min_vehicles": use_several, "lifo": stack, "missing_legs": lambda rng, request: None}
 """The rules of a working day, each with what has a request state it. The last needs all places."""
 
@@ -298,7 +305,8 @@ def stated_in(request: Data) -> set[str]:
     """Return the names of the rules of a day that a request states."""
     kinds, orders = request["fleet"], [*request["customers"], *request.get("shipments", ())]
     stated = {relation["kind"] for relation in request.get("relations", ())}
-    stated |= {name for name in ("breaks", "driving_rules", "max_travel_duration", "lifo")
+    stated |= {name for name in ("breaks", "driving_rules", "max_travel_duration", "max_distance",
+                                "lifo")
                if any(kind.get(name) for kind in kinds)}
     stated |= {name for name in ("alternatives", "vehicle_costs")
                if any(order.get(name) for order in orders)}

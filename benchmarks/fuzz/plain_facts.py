@@ -106,6 +106,9 @@ def _faults_at_the_wheel(kind: Data, route: Data) -> Iterator[str]:
     driven = sum(end - begin for what, begin, end in record if what == "drive")
     if longest is not None and driven > 1000 * longest:
         yield f"{route['vehicle']} is on legs for {driven} ms"
+    farthest = kind.get("max_distance")
+    if farthest is not None and sum(trip["distance"] for trip in route["trips"]) > farthest + SLACK:
+        yield f"{route['vehicle']} drives more than {farthest} m"
     rules = kind.get("driving_rules")
     if rules is None:
         return

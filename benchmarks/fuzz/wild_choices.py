@@ -103,3 +103,11 @@ def relate(rng: random.Random, request: Data) -> None:
                          "same_vehicle": relation["scope"] == "trip" or rng.random() < 0.5}
     if rng.random() < 0.02:
         request["relations"][0]["customers"][0] = "nobody"
+
+
+def limit_ways(rng: random.Random, request: Data) -> Data:
+    """Return a request, some with limits of what vehicles drive on all their trips. In place."""
+    if rng.random() < 0.1:
+        for kind in request["fleet"]:
+            kind["max_distance"] = rng.choice((0, 1, 2e4, 1e5, 1e9))
+    return request

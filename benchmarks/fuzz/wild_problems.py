@@ -10,7 +10,8 @@ from collections.abc import Callable, Sequence
 from typing import Any
 
 from benchmarks.fuzz.wild_choices import (
-    RICHEST, choose_vehicles, offer_places, places_of, prefer_vehicles, relate, set_hours_apart,
+    RICHEST, choose_vehicles, limit_ways, offer_places, places_of, prefer_vehicles, relate,
+    set_hours_apart,
 )
 from benchmarks.fuzz.wild_rests import let_rest
 from benchmarks.fuzz.wild_shipments import add_shipments
@@ -70,7 +71,7 @@ def wild_request(rng: random.Random, number: int | None = None, *, tables: bool 
     set_hours_apart(request)
     if rng.random() < 0.5:
         _tame(rng, request, dimensions)
-    return request
+    return limit_ways(rng, request)
 
 
 def _geography(rng: random.Random) -> tuple[str, float, Callable[[], Point]]:

@@ -93,7 +93,9 @@ inline Int longest_trip(const VehicleType& type) { return type.max_trip_distance
 inline bool limits_travel(const VehicleType& type) { return type.max_travel_duration < unlimited; }
 
 // Whether a vehicle's legs are limited, on all its trips together.
-inline bool limits_legs(const VehicleType& type) { return limits_travel(type); }
+inline bool limits_legs(const VehicleType& type) {
+    return limits_travel(type) || type.max_distance < unlimited;
+}
 
 // Whether the time on legs is limited, and hangs on when they are driven.
 inline bool limits_timed_travel(const VehicleType& type) {
@@ -107,7 +109,7 @@ inline bool may_travel(const VehicleType& type, Int travel) {
 
 // Whether a vehicle may drive such legs, without setups, on all its trips together.
 inline bool may_drive_all(const VehicleType& type, Leg legs) {
-    return may_travel(type, legs.duration);
+    return may_travel(type, legs.duration) && legs.distance <= type.max_distance;
 }
 
 // How long a vehicle may be on legs, on all its trips together, `unlimited` if ever.

@@ -100,6 +100,16 @@ def _trip_distance(attempt: Attempt) -> Diagnosis:
         with_type(attempt, changed))
 
 
+def _distance(attempt: Attempt) -> Diagnosis:
+    kind, limit = attempt.vehicle_type, attempt.vehicle_type.max_distance or 0
+    distance = sum(trip.distance for trip in attempt.evaluation.routes[0].trips)
+    excess = up_to_tenth(distance - limit, MM_PER_KM)
+    remedy, changed = more_of("distance", kind, excess, kind.id)
+    return Diagnosis(
+        "DISTANCE", f"The way there and back is {in_km(excess)} more than {kind.id} may drive.",
+        remedy, with_type(attempt, changed))
+
+
 def _travel_duration(attempt: Attempt) -> Diagnosis:
     kind, limit = attempt.vehicle_type, attempt.vehicle_type.max_travel_duration or 0
     travel = travel_duration(attempt.solution.routes[0].trips)
@@ -345,6 +355,7 @@ DIAGNOSES: dict[str, Callable[[Attempt], Diagnosis]] = {
     "ENDURANCE": endurance_broken,
     "ENERGY": energy_broken,
     "TRIP_DISTANCE": _trip_distance,
+    "DISTANCE": _distance,
     "TRAVEL_DURATION": _travel_duration,
     "LAUNCH": _launch,
     "MAX_STOPS": _stops,

@@ -31,7 +31,7 @@ MOST_NAMES = 5
 """So many customers on a way are named."""
 
 BY_LEGS = frozenset({"TIME_WINDOW", "TIME_ABOARD", "SHIFT", "WORKING_DURATION", "TRIP_DISTANCE",
-                     "TRAVEL_DURATION"})
+                     "DISTANCE", "TRAVEL_DURATION"})
 """Rules that shorter legs may keep."""
 
 
@@ -192,6 +192,11 @@ def _lacking(end: Depot, vehicles: VehicleType, timed: TimedRoute) -> Lacking | 
         more = up_to_tenth(timed.judged.metrics.trips[0].distance - limit, MM_PER_KM)
         return Lacking("RANGE", f"would drive {in_km(more)} more than a trip may be long",
                        LIMITS["trip_distance"].raised(vehicles, more))
+    if codes == {"DISTANCE"}:
+        driven = sum(trip.distance for trip in timed.judged.metrics.trips)
+        more = up_to_tenth(driven - (vehicles.max_distance or 0), MM_PER_KM)
+        return Lacking("DISTANCE", f"would drive {in_km(more)} more than it may",
+                       LIMITS["distance"].raised(vehicles, more))
     if codes == {"TRAVEL_DURATION"}:
         limit = vehicles.max_travel_duration or 0
         more = up_to_tenth(travel_duration(timed.route.trips) - limit, MS_PER_MINUTE)

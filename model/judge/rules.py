@@ -380,6 +380,10 @@ def route_violations(
     if limit is not None and travel > limit:
         message = f"is on legs for {seconds(travel)}, at most {seconds(limit)} are allowed"
         yield Violation("TRAVEL_DURATION", message, path)
+    distance, limit = sum(trip.distance for trip in metrics.trips), vehicle_type.max_distance
+    if limit is not None and distance > limit:
+        message = f"drives {decimal(distance)} m, at most {decimal(limit)} m are allowed"
+        yield Violation("DISTANCE", message, path)
     limit = vehicle_type.max_working_duration
     if limit is not None and metrics.working_duration > limit + over:
         message = (f"works {seconds(metrics.working_duration)}, at most {seconds(limit)} are "

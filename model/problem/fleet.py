@@ -95,6 +95,7 @@ class VehicleType:
     last_by_shift: TimeLimit = UNLIMITED  # last end, with overtime, if its depot is open
     max_working_duration: Milliseconds | None = None
     max_trip_distance: Millimetres | None = None
+    max_distance: Millimetres | None = None  # of all its trips together
     max_travel_duration: Milliseconds | None = None  # on legs, of all its trips together
     overtime: Overtime | None = None  # None: shift and working duration can't be exceeded
     max_trips: Count = 1

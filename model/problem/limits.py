@@ -92,6 +92,8 @@ LIMITS = {
                                "driving.max_driving_per_day", is_total=True),
     "trip_distance": StatedLimit("vehicle_type", "max_trip_distance", KM,
                                  "if trips could be {quantity} longer"),
+    "distance": StatedLimit("vehicle_type", "max_distance", KM,
+                            "if {of} could drive {quantity} farther"),
     "endurance": StatedLimit("flyer", "endurance", MINUTE,
                              "if endurance{of} were {quantity} longer"),
     "range": StatedLimit("flyer", "max_range", KM, "if max_range{of} were {quantity} longer"),

@@ -9,7 +9,7 @@ from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from operator import le
-from typing import Literal
+from typing import Literal, NamedTuple
 
 from model.judge.chargers import level_behind
 from model.judge.driving import travel_duration
@@ -29,6 +29,13 @@ MAX_OWN_TYPES = 500
 
 class TooManyTypesError(ValueError):
     """More vehicles are under way than can be planned for."""
+
+
+class Legs(NamedTuple):
+    """What a vehicle drives, its setups left out."""
+
+    duration: int  # ms
+    distance: int  # mm
 
 
 @dataclass(frozen=True)
@@ -60,15 +67,16 @@ def find_workers(problem: Problem, past: Past, kept: Mapping[Vehicle, Kept]) -> 
         way_on = route.way_on
         if way_on is not None and _can_go_on(problem, route, way_on.aboard, home_by):
             home = min(way_on.planned_end, home_by)
-            planned = _planned_travel(problem, route, way_on)
-            later = _later(problem, past, route, home, home_by, _travelled(route) + planned)
+            planned = _planned(problem, route, way_on)
+            driven = _driven(problem, route, is_home=False)
+            later = _later(problem, past, route, home, home_by, Legs(
+                driven.duration + planned.duration, driven.distance + planned.distance))
             rest = _rest_of_trip(problem, route, way_on, home_by if later is None else home)
-            if later is not None and rest.kind.max_travel_duration is not None:
-                rest = replace(rest, kind=replace(rest.kind, max_travel_duration=planned))
+            if later is not None:
+                rest = replace(rest, kind=_with_as_much(rest.kind, planned))
             workers.append(rest)
         else:
-            later = _later(problem, past, route, route.end, home_by,
-                           travel_duration(route.route.trips))
+            later = _later(problem, past, route, route.end, home_by, _driven(problem, route))
         if later is not None:
             workers.append(later)
     workers += _others(problem, past, kept)
@@ -132,24 +140,33 @@ def _home_in_time(kind: VehicleType, route: Kept) -> int:
     return min(kind.latest, first_departure(kind, route.route.trips[0]) + kind.max_working_duration)
 
 
-def _driven(problem: Problem, route: Kept) -> tuple[int, int]:
-    """Return how far a vehicle has driven on its last trip, and the way home."""
-    kind = problem.vehicle_types[route.vehicle.type]
-    distance = problem.travel[kind.travel].distance
-    nodes = route.decision.trips[-1].nodes
-    return sum(map(distance.item, nodes[:-2], nodes[1:-1])), distance.item(*nodes[-2:])
+def _distance(problem: Problem, route: Kept, nodes: Sequence[int]) -> int:
+    distance = problem.travel[problem.vehicle_types[route.vehicle.type].travel].distance
+    return sum(map(distance.item, nodes, nodes[1:]))
 
 
-def _travelled(route: Kept) -> int:
-    """Return how long a vehicle has been on legs, the way home left out."""
+def _driven(problem: Problem, route: Kept, is_home: bool = True) -> Legs:
+    """Return what a vehicle has driven on all its trips, with the way home or without."""
     *trips, last = route.route.trips
-    return travel_duration((*trips, replace(last, stops=last.stops[:-1])))
+    *before, on = (trip.nodes for trip in route.decision.trips)
+    stops, nodes = (last.stops, on) if is_home else (last.stops[:-1], on[:-1])
+    return Legs(travel_duration((*trips, replace(last, stops=stops))),
+                sum(_distance(problem, route, each) for each in (*before, nodes)))
 
 
-def _planned_travel(problem: Problem, route: Kept, way_on: WayOn) -> int:
-    """Return how long a vehicle is on legs on the rest of its trip, by the plan given."""
+def _planned(problem: Problem, route: Kept, way_on: WayOn) -> Legs:
+    """Return what a vehicle drives on the rest of its trip, by the plan given."""
     duration = problem.travel[problem.vehicle_types[route.vehicle.type].travel].duration
-    return sum(map(duration.item, way_on.planned.nodes, way_on.planned.nodes[1:]))
+    nodes = way_on.planned.nodes
+    return Legs(sum(map(duration.item, nodes, nodes[1:])), _distance(problem, route, nodes))
+
+
+def _with_as_much(kind: VehicleType, legs: Legs) -> VehicleType:
+    """Return a type that may drive such legs and no more, as far as any are limited."""
+    return replace(
+        kind,
+        max_travel_duration=None if kind.max_travel_duration is None else legs.duration,
+        max_distance=None if kind.max_distance is None else legs.distance)
 
 
 def _load(problem: Problem, route: Kept, aboard: Sequence[int]) -> tuple[int, ...]:
@@ -203,7 +220,8 @@ def _can_go_on(problem: Problem, route: Kept, aboard: Sequence[int], home_by: in
     kind = problem.vehicle_types[route.vehicle.type]
     if kind.flies:
         return False
-    limit, served = kind.max_trip_distance, customers_of(problem, route.decision.trips[-1])
+    nodes, driven = route.decision.trips[-1].nodes, _driven(problem, route)
+    served = customers_of(problem, route.decision.trips[-1])
     in_order = kind.lifo or kind.pickups == "last"
     is_blocked = (in_order and _has(problem, served, "pickup")
                   and _has(problem, aboard, "demand"))
@@ -211,9 +229,10 @@ def _can_go_on(problem: Problem, route: Kept, aboard: Sequence[int], home_by: in
             and all(count is None or count >= 0
                     for count in (*_counts_left(problem, route), *_batteries_left(problem, route)))
             and all(map(le, _load(problem, route, aboard), kind.capacity))
-            and (limit is None or sum(_driven(problem, route)) <= limit)
-            and (kind.max_travel_duration is None
-                 or travel_duration(route.route.trips) <= kind.max_travel_duration))
+            and all(most is None or used <= most for most, used in (
+                (kind.max_trip_distance, _distance(problem, route, nodes)),
+                (kind.max_distance, driven.distance),
+                (kind.max_travel_duration, driven.duration))))
 
 
 def _rest_of_trip(problem: Problem, route: Kept, way_on: WayOn, home_by: int) -> VehicleWorker:
@@ -223,10 +242,13 @@ def _rest_of_trip(problem: Problem, route: Kept, way_on: WayOn, home_by: int) ->
     equipped = with_drones_then(kind, bool(trip.sorties))
     drones = [replace(drones, batteries=left) for drones, left
               in zip(equipped.drone_types, _batteries_left(problem, route), strict=True)]
+    driven = _driven(problem, route, is_home=False)
     own = replace(
         _own_type(problem, route, way_on.ready, home_by, 1), end=trip.nodes[-1],
-        max_trip_distance=_left(kind.max_trip_distance, _driven(problem, route)[0]),
-        max_travel_duration=_left(kind.max_travel_duration, _travelled(route)),
+        max_trip_distance=_left(kind.max_trip_distance,
+                                _distance(problem, route, trip.nodes[:-1])),
+        max_distance=_left(kind.max_distance, driven.distance),
+        max_travel_duration=_left(kind.max_travel_duration, driven.duration),
         max_stops=stops, max_sorties=sorties,
         drones=drones[0] if drones else None, more_drones=tuple(drones[1:]),
         initial_load=_load(problem, route, way_on.aboard),
@@ -238,18 +260,19 @@ def _rest_of_trip(problem: Problem, route: Kept, way_on: WayOn, home_by: int) ->
 
 
 def _later(problem: Problem, past: Past, route: Kept, home: int, home_by: int,
-           travelled: int) -> VehicleWorker | None:
+           driven: Legs) -> VehicleWorker | None:
     """Return what trips a vehicle can begin that is back at `home`; None if there are none."""
     kind = problem.vehicle_types[route.vehicle.type]
     ready = max(past.now, home + kind.reload_duration)
     trips_left = kind.max_trips - len(route.route.trips)
     place = route.decision.trips[-1].nodes[-1]
-    travel_left = _left(kind.max_travel_duration, travelled)
+    travel_left = _left(kind.max_travel_duration, driven.duration)
+    way_left = _left(kind.max_distance, driven.distance)
     if (route.vehicle in past.unavailable or trips_left < 1 or ready > home_by
-            or place not in kind.reload_places or (travel_left or 0) < 0):
+            or place not in kind.reload_places or min(travel_left or 0, way_left or 0) < 0):
         return None
     own = replace(_own_type(problem, route, ready, home_by, trips_left), start=place,
-                  max_travel_duration=travel_left,
+                  max_travel_duration=travel_left, max_distance=way_left,
                   charge_left=_charge_left(problem, route, ready))
     own = replace(own, works_since=home) if kind.cost_per_hour else own
     rested = with_clock(kind, own, route.route, home)

@@ -22,7 +22,7 @@ from model.search.worker import SearchThread
 MOST_ROUNDS = 10**9
 """More than there is time for."""
 
-LIMITS = "max_trip_distance", "max_working_duration", "max_travel_duration"
+LIMITS = "max_trip_distance", "max_distance", "max_working_duration", "max_travel_duration"
 """Of vehicles, which aren't looked at."""
 
 

@@ -38,8 +38,8 @@ def evaluate(instance: Instance) -> Records:
     held_back = early | ((retimed | limited) & timed) | lagging
     release = bool((place["release"] > 0).any())
     priced = soft | limited | held_back | retimed | (rates["load"] > 0)
-    # So is how long it travels, though nothing is held back for that.
-    timed = timed | (types["max_travel_duration"] < UNLIMITED)
+    # So is what it drives in all, though nothing is held back for that.
+    timed = timed | (np.minimum(types["max_travel_duration"], types["max_distance"]) < UNLIMITED)
     # How long a vehicle works at no cost is looked at everywhere if its one trip waits for nothing.
     free = ~costly & (types["max_trips"] == 1) & (types["drones"] == 0)
     by_detour = ~(timed if release else timed & ~free) & ~priced & ~bound & ~rests

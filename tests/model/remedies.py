@@ -105,6 +105,7 @@ ON_TYPE: dict[str, Callable[[VehicleType, Change], VehicleType]] = {
         kind, drones=replace(_drones(kind), batteries=int(change.quantity))),
     "work": lambda kind, change: _raise(kind, "max_working_duration", change),
     "travel": lambda kind, change: _raise(kind, "max_travel_duration", change),
+    "distance": lambda kind, change: _raise(kind, "max_distance", change),
     "driving_day": _drive_longer,
     "trip_distance": lambda kind, change: _raise(kind, "max_trip_distance", change),
     "pickups": lambda kind, _: replace(kind, pickups="any"),

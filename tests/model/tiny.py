@@ -233,7 +233,8 @@ def with_duty(rng: np.random.Generator, problem: Problem) -> Problem:
             kind, overtime=overtime if rng.random() < 0.7 else None,
             cost_per_stop=float(rng.integers(0, 5)), max_stops=_maybe(rng, 0.5, 0, 3, 1),
             max_sorties=_maybe(rng, 0.5, 0, 3, 1),
-            max_travel_duration=None if kind.flies else _maybe(legs, 0.5, 4, 40))
+            max_travel_duration=None if kind.flies else _maybe(legs, 0.5, 4, 40),
+            max_distance=_maybe(rng.spawn(1)[0], 0.3, 4, 40, MM_PER_KM))
 
     return replace(problem, vehicle_types=tuple(map(tired, problem.vehicle_types)))
 

@@ -126,7 +126,7 @@ def _vehicle_type(file: InstanceFile, vehicles: FileVehicles, depots: dict[int, 
         useful = min(max(len(file.customers()), 1), MOST_TRIPS)
         vehicle_type["max_trips"] = min(vehicles.max_trips or useful, useful)
     if vehicles.max_distance is not None:
-        vehicle_type["max_trip_distance"] = _number(vehicles.max_distance)
+        vehicle_type["max_distance"] = _number(vehicles.max_distance)
     if vehicles.max_duration is not None:
         vehicle_type["max_working_duration"] = _number(vehicles.max_duration)
     return vehicle_type

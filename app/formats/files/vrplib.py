@@ -82,8 +82,6 @@ def _refuse_unknown(fields: Fields) -> None:
         raise InstanceFileError(f"TYPE {kind} is not supported: {', '.join(sorted(TYPES))} are.")
     if "distance" in fields and {"time_window", "vehicles_reload_depot"} & fields.keys():
         raise InstanceFileError("DISTANCE is not supported with time windows or several trips.")
-    if {"vehicles_max_distance", "vehicles_reload_depot"} <= fields.keys():
-        raise InstanceFileError("VEHICLES_MAX_DISTANCE is not supported with several trips.")
 
 
 def _require_numbered(text: str) -> None:

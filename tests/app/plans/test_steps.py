@@ -43,6 +43,8 @@ def bound(client: httpx.Client, request: Request, rule: str) -> Request:
      [{"path": "fleet[0].shift.latest", "by": 60}]),
     ({}, {"max_working_duration": 690}, "max_working_duration",
      [{"path": "fleet[0].max_working_duration", "by": 60}]),
+    ({}, {"max_distance": 11_500}, "max_distance",
+     [{"path": "fleet[0].max_distance", "by": 1000}]),
     ({}, {"max_trip_distance": 11_500}, "max_trip_distance",
      [{"path": "fleet[0].max_trip_distance", "by": 1000}]),
     ({"demand": [6]}, {}, "capacity", [{"path": "fleet[0].capacity[0]", "by": 1}]),

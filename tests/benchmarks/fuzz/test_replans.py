@@ -37,7 +37,7 @@ def test_days_that_change_are_planned_soundly(client: httpx.Client) -> None:
 
 def test_days_of_which_something_is_gone_are_planned_or_refused(client: httpx.Client) -> None:
     days = Days(client)
-    for seed in range(DAYS // 4):
+    for seed in range(DAYS // 3):
         days.try_gone(seed)
     assert days.replanned > DAYS // 5
     assert set(days.statuses) == {"/plan 200", "/plan 422", "/check 200"}

@@ -237,7 +237,8 @@ def test_fewer_vehicles_than_are_to_be_used_save_one(tiny_problem, customers, tr
 
 def test_limits_that_can_not_be_more_bind_nobody(tiny_problem, customers, truck, drones):
     most = replace(truck, capacity=(MAX_QUANTITY,), max_working_duration=MAX_QUANTITY,
-                   max_trip_distance=MAX_QUANTITY, max_travel_duration=MAX_QUANTITY,
+                   max_trip_distance=MAX_QUANTITY, max_distance=MAX_QUANTITY,
+                   max_travel_duration=MAX_QUANTITY,
                    drones=replace(drones, capacity=(MAX_QUANTITY,)))
     problem = tiny_problem(*customers, truck=most)
     assert binding(problem, plan(problem, route(A, B, C, D)), B) == {}

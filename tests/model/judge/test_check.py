@@ -42,6 +42,7 @@ def with_trip(solution, trip):
     ("WORKING_DURATION", {"max_working_duration": 18 * MINUTE},
      {"max_working_duration": 18 * MINUTE - 1}),
     ("TRIP_DISTANCE", {"max_trip_distance": 4 * KM}, {"max_trip_distance": 4 * KM - 1}),
+    ("DISTANCE", {"max_distance": 4 * KM}, {"max_distance": 4 * KM - 1}),
     ("TRAVEL_DURATION", {"max_travel_duration": 8 * MINUTE},
      {"max_travel_duration": 8 * MINUTE - 1}),
     ("MAX_STOPS", {"max_stops": 2}, {"max_stops": 1}),

@@ -7,14 +7,14 @@ from model.problem.limits import LIMITS, limits_of
 
 VAN = VehicleType(
     "van", 2, (5000,), 0, latest=9, max_working_duration=8, max_trip_distance=7,
-    max_travel_duration=6, max_stops=5, max_sorties=4, overtime=Overtime(1.0, 3),
+    max_distance=11, max_travel_duration=6, max_stops=5, max_sorties=4, overtime=Overtime(1.0, 3),
     driving=DrivingRules(10, 1, max_driving_per_day=20, max_work=15))
 
 
 def test_limits_of_a_vehicle_are_those_that_it_states():
     stated = {name: value for name, _, value in limits_of(VAN, "vehicle_type", "flyer")}
-    assert stated == {"shift": 9, "work": 8, "trip_distance": 7, "travel": 6, "stops": 5,
-                      "sorties": 4, "overtime": 3, "driving": 10, "driving_day": 20,
+    assert stated == {"shift": 9, "work": 8, "trip_distance": 7, "distance": 11, "travel": 6,
+                      "stops": 5, "sorties": 4, "overtime": 3, "driving": 10, "driving_day": 20,
                       "work_spell": 15}
     assert [*limits_of(VehicleType("van", 1, (1,), 0), "vehicle_type", "flyer")] == []
 

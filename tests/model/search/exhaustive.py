@@ -37,7 +37,7 @@ Whole = tuple[int, float]
 NEVER_BY_BEGINNING_LATER = {
     "CAPACITY", "GOODS", "SERVED_BY", "SKILLS", "VEHICLE", "MAX_STOPS", "MAX_SORTIES", "MAX_TRIPS",
     "PAYLOAD", "PICKUP_ORDER", "MAX_RANGE", "UNREACHABLE", "TRAVEL_DURATION", "TRIP_DISTANCE",
-    "TIME_WINDOW", "SHIFT"}
+    "DISTANCE", "TIME_WINDOW", "SHIFT"}
 """Rules that no later departure keeps, as all is later then, whatever breaks are where."""
 
 

@@ -169,8 +169,15 @@ def test_depots_have_vehicles_hours_and_limits_of_their_own(tmp_path: Path) -> N
     assert [depot.id for depot in problem.depots] == ["depot-1", "depot-2"]
     assert [customer.id for customer in problem.customers] == ["2"]
     assert [(kind.depot, kind.earliest, kind.latest, kind.max_working_duration,
-             kind.max_trip_distance) for kind in problem.vehicle_types] == [
+             kind.max_distance) for kind in problem.vehicle_types] == [
         (0, 0, 70_000, 50_000, 40_000), (1, 5_000, 80_000, 60_000, 40_000)]
+
+
+def test_vehicles_drive_no_farther_on_all_their_trips(tmp_path: Path) -> None:
+    text = _vrplib("CAPACITY: 12\nVEHICLES_MAX_DISTANCE: 40", VEHICLES_RELOAD_DEPOT="1 1\n")
+    (kind,) = _problem(tmp_path, text).vehicle_types
+    assert (kind.max_distance, kind.max_trip_distance) == (40_000, None)
+    assert kind.max_trips > 1
 
 
 def test_distance_limits_the_route_with_its_service(tmp_path: Path) -> None:
@@ -202,8 +209,6 @@ def test_capacity_left_out_is_no_limit(tmp_path: Path) -> None:
     (_vrplib("VEHICLES: 1", VEHICLES_RELOAD_DEPOT="1 2\n"), "VEHICLES_RELOAD_DEPOT names"),
     (_vrplib("VEHICLES: 2", VEHICLES_RELOAD_DEPOT="1 1\n"), "has 1 lines for 2 vehicles"),
     (_vrplib("DISTANCE: 9", VEHICLES_RELOAD_DEPOT="1 1\n"), "DISTANCE is not supported"),
-    (_vrplib("VEHICLES_MAX_DISTANCE: 9", VEHICLES_RELOAD_DEPOT="1 1\n"),
-     "VEHICLES_MAX_DISTANCE is not supported"),
     (_vrplib().replace("DIMENSION: 3\n", ""), "DIMENSION is missing"),
     ("once upon a time\n", "This is no VRPLIB file"),
     (SOLOMON.replace("    2      1  ", "    3      1  "), "Customer 3 stands where 2"),

@@ -106,8 +106,8 @@ def test_every_quantity_is_held_as_thousandths(smallest: Request) -> None:
         "skills": ["cold"], "served_by": "drone"}
     smallest["fleet"][0] |= {
         "shift": {"earliest": 1, "latest": 9}, "max_working_duration": 8.5,
-        "max_trip_distance": 12.25, "max_travel_duration": 7.5, "max_trips": 2,
-        "reload_duration": 3, "skills": ["cold"], "costs": {"fixed": 5, "per_km": 6,
+        "max_trip_distance": 12.25, "max_distance": 20.5, "max_travel_duration": 7.5,
+        "max_trips": 2, "reload_duration": 3, "skills": ["cold"], "costs": {"fixed": 5, "per_km": 6,
                                                               "per_hour": 7, "per_stop": 0.5},
         "overtime": {"max_duration": 4.5, "cost_per_hour": 11}, "max_stops": 3, "max_sorties": 0,
         "co2_kg_per_km": 0.25, "co2_kg_per_kwh": 0.4,
@@ -124,8 +124,8 @@ def test_every_quantity_is_held_as_thousandths(smallest: Request) -> None:
     assert (customer.skills, customer.served_by) == ({"cold"}, "drone")
     truck = problem.vehicle_types[0]
     assert (truck.earliest, truck.latest, truck.reload_duration) == (1000, 9000, 3000)
-    assert (truck.max_working_duration, truck.max_trip_distance) == (8500, 12250)
-    assert truck.max_travel_duration == 7500
+    assert (truck.max_working_duration, truck.max_travel_duration) == (8500, 7500)
+    assert (truck.max_trip_distance, truck.max_distance) == (12250, 20500)
     assert (truck.fixed_cost, truck.cost_per_km, truck.cost_per_hour) == (5, 6, 7)
     assert (truck.cost_per_stop, truck.max_stops, truck.max_sorties) == (0.5, 3, 0)
     assert truck.overtime == Overtime(11, 4500)
