@@ -355,7 +355,7 @@ std::optional<Rests> rests_on_leg(const VehicleType& type, const BreaksAhead& ah
     const Int begin = ahead.begin;
     Rests rests;
     BrokenLeg leg(type, begin, leave, travel);
-    bool there = false;
+    RestPlace place = RestPlace::departure;
     for (Int next = ahead.next; next < type.breaks; ++next) {
         if (over_before(type, next, begin)) continue;
         const Break pause = break_of(type, next, begin);
@@ -365,11 +365,13 @@ std::optional<Rests> rests_on_leg(const VehicleType& type, const BreaksAhead& ah
         const bool waits = may && pause.may_begin(arrival) && pause.end(arrival) <= opens(arrival);
         if (!waits && leaves(arrival) <= pause.latest) break;
         if (!may) return std::nullopt;
-        RestPlace place = RestPlace::arrival;
-        if (!there && !pause.may_begin(arrival)) {
-            place = may_rest_on_way(type, next) ? RestPlace::way : RestPlace::departure;
+        if (place == RestPlace::arrival || pause.may_begin(arrival)) {
+            place = RestPlace::arrival;
+        } else if (may_rest_on_way(type, next)) {
+            place = RestPlace::way;
+        } else if (place == RestPlace::way) {
+            return std::nullopt;
         }
-        there = place == RestPlace::arrival;
         if (!leg.rest(next, place)) return std::nullopt;
         rests = rests.with(next, place);
     }

@@ -97,7 +97,10 @@ def broken_breaks(problem: Problem, kind: VehicleType,
     begin, end = begin_of(kind, trips[0]), trips[-1].stops[-1].departure
     last = -1
     for index, trip in enumerate(trips):
+        under_way: set[int] = set()
         for taken in trip.breaks:
+            if taken.place == "way":
+                under_way.add(taken.stop)
             if taken.number == REST:
                 continue
             each = kind.breaks[taken.number]
@@ -107,7 +110,8 @@ def broken_breaks(problem: Problem, kind: VehicleType,
             last = max(last, taken.number)
             if not earliest <= taken.start <= latest:
                 yield index, f"break {each.id} doesn't begin in its window"
-            if taken.place == "way" and not each.anywhere:
+            # Who has rested on the way isn't where it left any more.
+            if taken.place != "arrival" and taken.stop in under_way and not each.anywhere:
                 yield index, f"break {each.id} isn't at a stop"
             if each.max_load is not None and is_heavier(
                     trip_loads(problem, kind, trip)[taken.stop + 1], each.max_load):

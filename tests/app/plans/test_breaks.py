@@ -172,3 +172,19 @@ def test_who_fits_if_the_driver_rests_on_the_way_is_put_there(client: httpx.Clie
     assert [each["feasible"] for each in told["places"]] == [True]
     kinds = [stop["kind"] for stop in told["places"][0]["route"]["trips"][0]["stops"]]
     assert kinds == ["depot", "break", "customer", "depot"]
+
+
+@pytest.mark.parametrize("iterations", [0, 300])
+def test_who_has_rested_on_the_way_rests_at_no_stop_before_the_next(
+        service: httpx.Client, resting: Request, iterations: int) -> None:
+    resting["customers"] = [{"id": "A", "location": [0, 3], "demand": [1]}]
+    resting["fleet"][0] |= {"speed_kmh": 1, "breaks": [
+        {"id": "call", "duration": 0, "start": {"earliest": 7200, "latest": 9000},
+         "at": "anywhere"},
+        {"id": "nap", "duration": 60, "at": "stop", "start": {"earliest": 3600, "latest": 7200}}]}
+    resting["options"]["search_iterations"] = iterations
+    plan = planned(service, resting)
+    assert is_feasible(service, resting, plan)
+    if iterations:
+        assert plan["status"] == "complete"
+        assert plan["routes"][0]["trips"][0]["stops"][-2]["arrival"] >= 7200

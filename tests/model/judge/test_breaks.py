@@ -96,6 +96,16 @@ def test_windows_may_count_from_the_beginning_of_the_route() -> None:
     assert broken(problem, plan) == set()
 
 
+def test_who_has_rested_on_the_way_is_at_no_stop_any_more() -> None:
+    first = replace(REST, id="first", duration=0, earliest=17 * MINUTE, anywhere=True)
+    problem = problem_of(first, REST)
+    assert broken(problem, plan_of(problem, (0, 1, "way"), (1, 1, "departure"))) == {"BREAK"}
+    assert broken(problem, plan_of(problem, (0, 1, "departure"), (1, 1, "departure"))) == set()
+    assert broken(problem, plan_of(problem, (0, 1, "way"), (1, 1, "arrival"))) == {"BREAK"}
+    later = problem_of(first, replace(REST, latest=30 * MINUTE))
+    assert broken(later, plan_of(later, (0, 1, "way"), (1, 1, "arrival"))) == set()
+
+
 def test_breaks_come_in_order_and_once() -> None:
     problem = problem_of(REST, replace(REST, id="other"))
     assert broken(problem, plan_of(problem, (1, 0, "arrival"), (0, 0, "arrival"))) == {"BREAK"}
