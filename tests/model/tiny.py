@@ -72,10 +72,9 @@ def _vehicle_type(rng: np.random.Generator, name: int, dimensions: int, num_depo
     shift = _maybe(rng, 0.4, 15, 60)
     return VehicleType(
         str(name), count=int(rng.integers(1, 3)),
-        capacity=tuple(_draw(rng, 3, 8, 1) for _ in range(dimensions)), travel=0,
-        depot=int(rng.integers(num_depots)), fixed_cost=float(rng.integers(0, 3)),
-        cost_per_km=1.0, cost_per_hour=20.0,
-        earliest=earliest, latest=UNLIMITED if shift is None else earliest + shift,
+        capacity=tuple(_draw(rng, 3, 8, 1) for _ in range(dimensions)), cost_per_hour=20.0,
+        travel=0, depot=int(rng.integers(num_depots)), fixed_cost=float(rng.integers(0, 3)),
+        earliest=earliest, latest=UNLIMITED if shift is None else earliest + shift, cost_per_km=1.0,
         max_working_duration=max_working, speed_profile=RUSH_HOUR if rush else None,
         max_trip_distance=_maybe(rng, 0.3, 8, 25, MM_PER_KM),
         max_trips=int(rng.integers(1, 4)), reload_duration=_draw(rng, 0, 5),
