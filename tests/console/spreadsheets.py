@@ -24,6 +24,8 @@ class Spreadsheet:
         Customers that are meant.
     answers
         What is clicked: a part of the question, and the answer; the question may go by without one.
+    columns
+        What columns are said to mean, by their headings.
     holds
         Tells whether a request is what was meant.
     """
@@ -32,6 +34,7 @@ class Spreadsheet:
     content: bytes
     served: int
     answers: tuple[tuple[str, str], ...] = ()
+    columns: tuple[tuple[str, str], ...] = ()
     holds: Callable[[Data], bool] = lambda request: True
 
 
@@ -124,7 +127,7 @@ SPREADSHEETS = (
                 holds=lambda request: "pickup" in request["customers"][1]),
     Spreadsheet("kinds.csv", text(f"{CSV},Art", *rows("Lieferung", "Sonderfahrt", "Lieferung")), 3,
                 (("Sonderfahrt", "Pickups"),),
-                lambda request: "pickup" in request["customers"][1]),
+                holds=lambda request: "pickup" in request["customers"][1]),
     Spreadsheet("filtered.xlsx", book(("Touren", WITH), hide=(2,), filtered=True), 2,
                 (("hidden", ""),)),
     Spreadsheet("hidden.xlsx", book(("Touren", WITH), hide=(2,)), 3, (("hidden", "Planned"),)),
@@ -139,7 +142,7 @@ SPREADSHEETS = (
                 (("Dienstag", "Its rows instead"),)),
     Spreadsheet("vans.xlsx", book(("Kunden", WITH), ("Fahrzeuge", [
         ("Fahrzeug", "Anzahl", "Kapazität kg"), ("Sprinter", 2, 900), ("Caddy", 1, 400)])), 3,
-                (("Fahrzeuge", ""),), fleet_of(2, 1)),
+                (("Fahrzeuge", ""),), holds=fleet_of(2, 1)),
     Spreadsheet("handling.csv", text(f"{CSV},handling_s", *rows("120", "300", "60")), 3,
                 holds=each("service_duration", 120, 300, 60)),
     Spreadsheet("unloading.csv", text(f"{CSV},Abladen", *rows("10", "5", "15")), 3,
@@ -149,8 +152,8 @@ SPREADSHEETS = (
     Spreadsheet("packages.csv", text("Name,Lat,Lon,Pkgs", *ROWS), 3,
                 holds=each("demand", [5], [3], [7])),
     Spreadsheet("unknown.csv", text(f"{CSV},Zauber", *rows("rot", "blau", "gelb")), 3,
-                (("Zauber", "For the driver, as it is"),),
-                informed("Zauber", "rot", "blau", "gelb")),
+                columns=(("Zauber", "For the driver, as it is"),),
+                holds=informed("Zauber", "rot", "blau", "gelb")),
     Spreadsheet("serials.xlsx", book(("Export", [(*HEAD, "von", "bis")] + [
         (*cells, 46349 + 8 / 24, 46349 + 12 / 24) for cells in MUNICH])), 3),
     Spreadsheet("night.csv", text(f"{CSV},von,bis", "Anna,48.137,11.575,5,22:00,02:00",

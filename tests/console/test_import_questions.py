@@ -93,8 +93,10 @@ def test_the_example_of_a_working_day_is_read_and_planned(page: Page) -> None:
     expect(question.get_by_role("button", name="Rules of the whole plan")).to_have_attribute(
         "aria-pressed", "true")
     # Of two types: what they have in common, and as many as there are in all.
-    expect(shown.locator("#import-vehicles")).to_have_attribute("placeholder", "3")
-    expect(shown.locator("#import-capacity")).to_have_attribute("placeholder", "")
+    expect(shown.locator("#import-vehicles-taken")).to_have_text("taken: 3")
+    expect(shown.locator("#import-capacity-taken")).to_have_text("")
+    listed = shown.get_by_role("region", name="Vehicles of the file")
+    expect(listed.get_by_role("cell", name="bike")).to_be_visible()
     lag = shown.get_by_label("Meaning of Least lag (min)")
     expect(lag.locator("option:checked")).to_have_text("Least time between the two of an order")
     with page.expect_download() as download:

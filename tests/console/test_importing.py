@@ -48,8 +48,10 @@ def use(page: Page) -> None:
 def test_times_are_read_as_they_are_meant_beside_their_cells(page: Page) -> None:
     open_file(page, "today.csv", SHEET)
     shown = dialog(page)
-    for reading in ("8.30 \u2192 8:30", "12.15 \u2192 12:15", "3 \u2192 3 min", "ring twice"):
-        expect(shown.get_by_text(reading, exact=True).first).to_be_visible()
+    for raw, made in (("8.30", "from 8:30"), ("12.15", "by 12:15"), ("3", "3 min")):
+        cell = shown.get_by_role("cell", name=f"{raw} {made}", exact=True).first
+        expect(cell).to_be_visible()
+    expect(shown.get_by_role("cell", name="ring twice", exact=True)).to_be_visible()
     use(page)
     planned(page, "2 of 2 served")
     customer = state(page, "state.request.customers.0")
@@ -87,7 +89,7 @@ def test_trips_costs_and_currency_are_assumed_told_and_changed(
     expect(shown.get_by_text(f"an hour is taken to cost {hour} {currency}")).to_be_visible()
     expect(shown.get_by_text("Vehicles may go out again")).to_be_visible()
     for field, assumed in (("max_trips", "5"), ("per_hour", hour), ("currency", currency)):
-        expect(page.locator(f"#import-{field}")).to_have_attribute("placeholder", assumed)
+        expect(page.locator(f"#import-{field}-taken")).to_have_text(f"taken: {assumed}")
     state_field(page, "max_trips", "1")
     state_field(page, "per_hour", "20")
     state_field(page, "currency", "pln")
@@ -104,8 +106,9 @@ def test_what_is_assumed_is_told(page: Page) -> None:
     open_file(page, "today.csv", SHEET)
     shown = dialog(page)
     expect(shown.get_by_text("No depot is stated")).to_be_visible()
-    expect(shown.locator("#import-depot")).to_have_attribute("placeholder", "47.385, 8.525")
-    expect(shown.locator("#import-vehicles")).to_have_attribute("placeholder", "1")
+    expect(shown.locator("#import-depot-taken")).to_have_text("taken: 47.385, 8.525")
+    expect(shown.locator("#import-vehicles-taken")).to_have_text("taken: 1")
+    expect(shown.locator("#import-depot")).not_to_have_attribute("placeholder", re.compile(""))
 
 
 def test_a_wrong_cell_is_named_and_its_row_left_out(page: Page) -> None:
@@ -122,7 +125,7 @@ def test_a_guess_is_corrected_by_a_choice_and_remembered(page: Page) -> None:
     open_file(page, "today.csv", SHEET)
     shown = dialog(page)
     shown.get_by_label("Unit of duration").select_option("seconds")
-    expect(read_anew(page).get_by_text("3 \u2192 0 min 3 s").first).to_be_visible()
+    expect(read_anew(page).get_by_role("cell", name="3 0 min 3 s").first).to_be_visible()
     shown.get_by_label("Meaning of notes").select_option("ignored")
     read_anew(page)
     use(page)
@@ -145,6 +148,48 @@ def test_a_list_of_pickups_is_put_right_by_one_choice(page: Page) -> None:
     customers = state(page, "state.request.customers")
     assert [customer["pickup"] for customer in customers] == [[5], [7]]
     assert all(not any(customer["demand"]) for customer in customers)
+
+
+MARKED = """Kunde;Lat;Lon;Kz.;Beginn;XQ
+A;48.1312;11.5712;7;8:00;3
+B;48.1412;11.5612;4;9:00;8
+"""
+
+
+def test_columns_to_look_at_are_counted_and_settled_one_by_one(page: Page) -> None:
+    open_file(page, "today.csv", MARKED)
+    shown = dialog(page)
+    chip = shown.get_by_role("button", name="2 columns to look at")
+    chip.click()
+    expect(shown.get_by_label("Meaning of Kz.")).to_be_focused()
+    chip.click()
+    expect(shown.get_by_label("Meaning of XQ")).to_be_focused()
+    likely = shown.get_by_label("Meaning of Kz.").locator("optgroup").first.locator("option")
+    assert "demand" in [option.get_attribute("value") for option in likely.all()]
+    shown.get_by_label("Meaning of Kz.").select_option("demand")
+    expect(read_anew(page).get_by_role("button", name="1 column to look at")).to_be_visible()
+    expect(shown.get_by_role("cell", name="7", exact=True)).to_be_visible()
+    shown.get_by_label("Meaning of XQ").select_option("ignored")
+    expect(read_anew(page).get_by_role("button", name="to look at")).to_have_count(0)
+    use(page)
+    planned(page, "2 of 2 served")
+    assert [customer["demand"] for customer in state(page, "state.request.customers")] == [[7], [4]]
+
+
+def test_what_is_doubtful_is_said_and_taken_as_right(page: Page) -> None:
+    rows = "A\t48.1312\t11.5712\t48.1512\t11.5912\t8:00"
+    open_file(page, "rides.txt", "Name\tPickup lat\tPickup lon\tDelivery lat\tDelivery lon\t"
+              f"Start\n{rows}\n")
+    shown = dialog(page)
+    heading = shown.get_by_role("columnheader", name="Start")
+    expect(heading).to_contain_text("At the pickup, or at the delivery?")
+    expect(shown.get_by_role("cell", name="48.1312 Pickup: 48.1312\u00b0")).to_be_visible()
+    expect(shown.get_by_role("columnheader", name="Pickup lat")).to_contain_text("with C")
+    heading.get_by_role("button", name="That is right").click()
+    read_anew(page)
+    expect(heading).not_to_contain_text("At the pickup")
+    use(page)
+    planned(page, "1 of 1 served")
 
 
 def test_cells_are_pasted_from_a_sheet(page: Page) -> None:

@@ -33,6 +33,9 @@ def test_a_kind_of_spreadsheet_is_planned_as_meant(console: Page, sheet: Spreads
         if answer:
             question.get_by_role("button", name=answer).click()
             read_anew(console)
+    for heading, meaning in sheet.columns:
+        shown.get_by_label(f"Meaning of {heading}").select_option(label=meaning)
+        read_anew(console)
     use(console)
     expect(console.locator(".result-line")).to_contain_text(f"of {sheet.served} served")
     request = state(console, "state.request")
@@ -53,8 +56,10 @@ def test_all_that_a_workbook_leaves_open_is_answered_and_remembered(page: Page) 
     for width in (1440, 1024, 390):
         page.set_viewport_size({"width": width, "height": 844})
         assert findings(page, impacts=None) == [], width
+    shown.get_by_label("Meaning of Zauber").select_option(label="For the driver, as it is")
+    read_anew(page)
     for part, answer in (("Dienstag", "Its rows, too"), ("hidden", "Planned"),
-                         ("storniert", "Planned"), ("Zauber", "For the driver, as it is")):
+                         ("storniert", "Planned")):
         question = shown.get_by_role("group", name=part)
         question.get_by_role("button", name=answer).click()
         expect(question.get_by_role("button", name=answer)).to_have_attribute(
@@ -70,20 +75,18 @@ def test_all_that_a_workbook_leaves_open_is_answered_and_remembered(page: Page) 
     expect(shown.get_by_text("3 customers of")).to_be_visible()
 
 
-def test_dozens_of_unused_columns_are_asked_without_filling_the_dialog(console: Page) -> None:
+def test_dozens_of_unused_columns_are_greyed_and_stay_within_the_table(console: Page) -> None:
     console.evaluate("localStorage.clear()")
     more = [f"Feld {number}" for number in range(30)]
     lines = [",".join([CSV, *more]), *(",".join([row, *["so und so"] * 30]) for row in ROWS)]
     open_file(console, "export.csv", "\n".join(lines))
     shown = dialog(console)
-    expect(shown.get_by_text("30 are not answered")).to_be_visible()
-    expect(shown.get_by_role("group", name="Feld 0")).to_be_visible()
-    last = shown.get_by_role("group", name="Feld 29")
-    expect(last).to_have_count(0)
-    shown.get_by_text("24 more columns that are not used").click()
-    last.get_by_role("button", name="Notes").click()
+    expect(shown.locator("th.unused")).to_have_count(30)
+    expect(shown.locator(".import-questions")).to_have_count(0)
+    expect(shown.get_by_role("button", name="to look at")).to_have_count(0)
+    shown.get_by_label("Meaning of Feld 29").select_option("notes")
     read_anew(console)
-    expect(last.get_by_role("button", name="Notes")).to_have_attribute("aria-pressed", "true")
+    expect(shown.locator("th.unused")).to_have_count(29)
     use(console)
     expect(console.locator(".result-line")).to_contain_text("of 3 served")
     assert state(console, "state.request.customers.0.info") == {"notes": "so und so"}

@@ -97,7 +97,7 @@ def columns_of(table: Table, style: Style, mapping: Sequence[ColumnMapping]) -> 
         taken.add(column.meaning)
         found[column.index] = column
     _align_windows(table, found)
-    _doubt_ends(found)
+    _doubt_ends(table, found)
     for index, heading in enumerate(table.headings):
         if index not in found and (heading or table.column(index)):
             found[index] = Column(index, heading, doubts=_unfit(table, index))
@@ -117,16 +117,18 @@ def _align_windows(table: Table, columns: dict[int, Column]) -> None:
             columns[column.index] = replace(bare, doubts=_unit_doubts(bare, guess))
 
 
-def _doubt_ends(columns: dict[int, Column]) -> None:
+def _doubt_ends(table: Table, columns: dict[int, Column]) -> None:
     """Doubt when a stop may begin where two places may be meant, and half a pair. In place."""
     meanings = {column.meaning for column in columns.values()}
+    are_fetched = any(len(table.column(index)) > len(table.rows) / 2
+                      for index, column in columns.items() if column.meaning in FETCHED)
     for index, column in columns.items():
         if column.confidence == 1:
             continue
         others = PAIRS.get(column.meaning)
         lacks = (others is not None and MEANINGS[column.meaning].kind in ("degrees", "number")
                  and others not in meanings)
-        if lacks or (column.meaning in ("earliest", "window") and meanings & FETCHED):
+        if lacks or (column.meaning in ("earliest", "window") and are_fetched):
             code, told = ("HALF_PAIR", f"no column is its {others}") if lacks else (
                 "WHICH_END", "it doesn't say of which of the two places it is")
             columns[index] = replace(column, doubts=(*column.doubts, Doubt(

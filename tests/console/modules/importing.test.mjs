@@ -2,8 +2,12 @@ import assert from 'node:assert/strict';
 import test from 'node:test';
 import {
   addressesIn,
+  assumedOf,
   byAddress,
   forNextFile,
+  isMarked,
+  listedFleet,
+  madeOf,
   meaningText,
   placing,
   readFields,
@@ -97,18 +101,59 @@ test('columns of other places are told by the place and what they say of it', ()
   assert.equal(meaningText('newest', 'Newest'), 'Newest');
 });
 
+test('what was made of a cell is told where it is not what stands there', () => {
+  const made = (meaning, raw, read) => madeOf(meaning, { raw, read });
+  assert.equal(made('name', 'Anna', 'Anna'), '');
+  assert.equal(made('ignored', '7', '7'), '');
+  assert.equal(made('service', '30', '30 min'), '30 min');
+  assert.equal(made('latest', '10:30', '10:30'), 'by 10:30');
+  assert.equal(made('pickup_earliest', '9', '9:00'), 'Pickup: from 9:00');
+  assert.equal(made('pickup_latitude', '51.5', '51.5\u00b0'), 'Pickup: 51.5\u00b0');
+  assert.equal(made('latitude', '51.x', null), 'not read');
+});
+
+test('columns that are not sure are to be looked at', () => {
+  const marked = ['sure', 'doubtful', 'open', 'unused', 'stated'].filter((certainty) =>
+    isMarked({ certainty }),
+  );
+  assert.deepEqual(marked, ['doubtful', 'open']);
+});
+
+test('what is taken for a fleet has no more digits than it needs', () => {
+  const kind = {
+    id: 'van',
+    count: 2,
+    capacity: [1012.4999999999999],
+    shift: { earliest: 28_800, latest: '17:00' },
+    breaks: [{ start: { earliest: 43_200, latest: 46_800 } }],
+    costs: { per_km: 0.1 + 0.2 },
+  };
+  const request = {
+    coordinate_system: 'geographic',
+    depots: [{ location: [11.1234567890123, 48.1] }],
+    fleet: [kind],
+  };
+  assert.equal(assumedOf({ request }, 'depot'), '48.1, 11.123457');
+  assert.equal(assumedOf({ request }, 'per_km'), '0.3');
+  assert.equal(assumedOf({ request }, 'vehicles'), '2');
+  assert.equal(assumedOf({ request: null }, 'vehicles'), null);
+  const doubts = [{ code: 'FLEET_IN_FILE' }];
+  assert.deepEqual(listedFleet({ request, doubts }), [
+    { id: 'van', count: 2, capacity: '1,012.5', shift: '8:00\u201317:00', breaks: '12:00\u201313:00' },
+  ]);
+  assert.deepEqual(listedFleet({ request, doubts: [] }), []);
+});
+
 test('a place is written as maps show it, or as x and y of a plane', () => {
   assert.equal(placing({ coordinate_system: 'geographic' }, [11.5, 48.1234567]), '48.123457, 11.5');
   assert.equal(placing(null, [11.5, 48]), '48, 11.5');
   assert.equal(placing({ coordinate_system: 'planar' }, [3, 4]), '3, 4');
 });
 
-test('what is said of a column last holds, by its question or by its own choice', () => {
+test('what is chosen for a column holds, whatever was answered about it before', () => {
   const column = { heading: 'Abladen', column: 'E' };
   const questions = [{ id: 'column:abladen', column: 'E' }];
-  const chosen = withColumn({}, column, { meaning: 'service', unit: 'seconds' }, questions);
-  const answered = withAnswer(chosen, 'column:abladen', 'info', column);
-  assert.deepEqual(answered, { columns: [], answers: { 'column:abladen': 'info' } });
+  const answered = withAnswer({}, 'column:abladen', 'info');
   const back = withColumn(answered, column, { meaning: 'service', unit: null }, questions);
   assert.deepEqual(back.answers, {});
   assert.equal(back.columns.length, 1);

@@ -58,10 +58,10 @@ export function changeColumn(column, patch) {
   return change({ mapping: withColumn(mapping, column, patch, reply.questions) });
 }
 
-/** Answer a question about the file, perhaps about a column of it. */
-export function answer(id, given, column) {
+/** Answer a question about the file. */
+export function answer(id, given) {
   const { mapping } = store.get().importing;
-  return change({ mapping: withAnswer(mapping, id, given, column) });
+  return change({ mapping: withAnswer(mapping, id, given) });
 }
 
 /** Say what a place on the map is for: `depot`, an address, or nothing. */

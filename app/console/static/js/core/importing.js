@@ -1,7 +1,7 @@
 /** What the console knows of imports: corrections, what is stated beside, earlier mappings. */
 
 import { t } from '../texts.js';
-import { parseNumber } from './format.js';
+import { clock, number, parseNumber } from './format.js';
 import { soughtIn } from './places.js';
 
 const MOST_REMEMBERED = 30;
@@ -10,19 +10,23 @@ const MOST_PLACES = 3000;
 /** Kinds of questions whose answers mean nothing for another file. */
 const OF_ONE_FILE = ['day', 'hidden_rows', 'total_rows', 'same_rows'];
 
-/** Fields beside the columns, as the settings name them: an example, and what holds if empty. */
+/** Fields beside the columns that matter every day, as the settings name them, with an example. */
 export const FIELDS = [
   { name: 'depot', example: '48.137, 11.575', read: text },
   { name: 'vehicles', example: '3', read: whole },
   { name: 'capacity', example: '800', read: numbers },
   { name: 'shift', example: '8:00-17:00', read: text },
+];
+
+/** The others. */
+export const MORE_FIELDS = [
   { name: 'max_trips', example: '2', read: whole },
-  { name: 'per_hour', example: '30', read: number },
-  { name: 'per_km', example: '0.5', read: number },
+  { name: 'per_hour', example: '30', read: parseNumber },
+  { name: 'per_km', example: '0.5', read: parseNumber },
   { name: 'currency', example: 'EUR', read: currency },
-  { name: 'speed_kmh', example: '40', empty: '40', read: number },
-  { name: 'service_minutes', example: '5', read: number },
-  { name: 'drones', example: '1', empty: '0', read: whole },
+  { name: 'speed_kmh', example: '40', read: parseNumber },
+  { name: 'service_minutes', example: '5', read: parseNumber },
+  { name: 'drones', example: '1', read: whole },
   { name: 'drone_capacity', example: '5', read: numbers },
 ];
 
@@ -39,12 +43,31 @@ export function meaningText(meaning, title) {
   return `${t(`import.side.${side}`)}: ${t(`import.meaning.${rest}`)}`;
 }
 
-function text(value) {
-  return value;
+/** Return a window of the request in words; its times may be counted or written. */
+function timeWindow(window) {
+  const { earliest, latest } = window ?? { earliest: undefined, latest: undefined };
+  if (earliest === undefined && latest === undefined) return '';
+  const told = (time) => (typeof time === 'number' ? clock(time) : (time ?? ''));
+  return `${told(earliest)}\u2013${told(latest)}`;
 }
 
-function number(value) {
-  return parseNumber(value);
+/** Tell whether a column is to be looked at before its file is planned. */
+export function isMarked({ certainty }) {
+  return certainty === 'doubtful' || certainty === 'open';
+}
+
+/** Return what was made of a cell, in words; nothing where that is what stands in it. */
+export function madeOf(meaning, { raw, read }) {
+  if (read === null) return t('import.notRead');
+  const [, side, own] = /^(pickup|alternative)_(\w+)$/.exec(meaning) ?? [null, null, meaning];
+  const bound = { earliest: 'since', latest: 'until' }[own];
+  const said = bound ? t(`import.${bound}`, { time: read }) : read;
+  const made = side ? `${t(`import.side.${side}`)}: ${said}` : said;
+  return meaning === 'ignored' || made === raw ? '' : made;
+}
+
+function text(value) {
+  return value;
 }
 
 function whole(value) {
@@ -65,7 +88,7 @@ function numbers(value) {
 export function readFields(texts) {
   const stated = {};
   const wrong = [];
-  for (const { name, read } of FIELDS) {
+  for (const { name, read } of [...FIELDS, ...MORE_FIELDS]) {
     const value = (texts[name] ?? '').trim();
     if (!value) continue;
     const found = read(value);
@@ -73,6 +96,41 @@ export function readFields(texts) {
     else stated[name] = found;
   }
   return { stated, wrong };
+}
+
+/** Return what is taken for a field that is empty, of several types what they have in common. */
+export function assumedOf({ request }, name) {
+  if (!request) return null;
+  const alike = (value) => {
+    const [first, ...others] = request.fleet.map(value);
+    return others.every((other) => other === first) ? first : undefined;
+  };
+  const plain = (value) => (value === undefined ? null : number(value));
+  const depot = request.depots[0].location;
+  return {
+    depot: Array.isArray(depot) ? placing(request, [depot[0], depot[1]]) : null,
+    vehicles: String(request.fleet.reduce((sum, { count }) => sum + count, 0)),
+    capacity: alike(({ capacity }) => capacity.map((amount) => number(amount)).join(' ')),
+    shift: alike(({ shift }) => timeWindow(shift)),
+    max_trips: plain(alike((kind) => kind.max_trips)),
+    per_hour: plain(alike(({ costs }) => costs?.per_hour)),
+    per_km: plain(alike(({ costs }) => costs?.per_km)),
+    currency: request.currency,
+    speed_kmh: '40',
+    drones: '0',
+  }[name];
+}
+
+/** Return the vehicles that a file lists, in words: `[{id, count, capacity, shift, breaks}]`. */
+export function listedFleet({ request, doubts }) {
+  if (!request || !doubts.some(({ code }) => code === 'FLEET_IN_FILE')) return [];
+  return request.fleet.map(({ id, count, capacity, shift, breaks = [] }) => ({
+    id,
+    count,
+    capacity: capacity.map((amount) => number(amount)).join(' '),
+    shift: timeWindow(shift),
+    breaks: breaks.map((pause) => timeWindow(pause.start)).join(', '),
+  }));
 }
 
 /** Return a mapping in which a column means what the user says, whatever was answered before. */
@@ -93,10 +151,9 @@ function without(answers, ids) {
   return Object.fromEntries(Object.entries(answers).filter(([id]) => !ids.includes(id)));
 }
 
-/** Return a mapping in which a question is answered, whatever was said of its column before. */
-export function withAnswer(mapping, id, answer, column = null) {
-  const answered = { ...mapping, answers: { ...mapping.answers, [id]: answer } };
-  return column ? { ...answered, columns: otherColumns(mapping, column) } : answered;
+/** Return a mapping in which a question is answered. */
+export function withAnswer(mapping, id, answer) {
+  return { ...mapping, answers: { ...mapping.answers, [id]: answer } };
 }
 
 /** Return the addresses of a request that nobody has placed yet: `[{address, ids}]`. */

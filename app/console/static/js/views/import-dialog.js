@@ -5,11 +5,11 @@ import { change, leaveImport, useImport } from '../importing.js';
 import { html } from '../libraries.js';
 import { useStore } from '../store.js';
 import { t } from '../texts.js';
-import { Columns } from './import-columns.js';
 import { ImportFields } from './import-fields.js';
 import { ImportMap } from './import-map.js';
 import { Questions } from './import-questions.js';
 import { Reading } from './import-reading.js';
+import { ImportTable } from './import-table.js';
 import { Dialog } from './parts.js';
 
 const MOST_LISTED = 20;
@@ -41,11 +41,11 @@ function Found({ importing }) {
     ${failure && html`<p class="error" role="alert">${failure.message}
       ${failure.errors.map(({ message }) => ` ${message}`)}</p>`}
     <${Errors} importing=${importing} />
+    <${ImportTable} reply=${reply} />
     <${Questions} importing=${importing} />
     <${ImportFields} importing=${importing} />
     <${ImportMap} importing=${importing} />
     <${Doubts} reply=${reply} />
-    <${Columns} reply=${reply} />
     <${Reading} importing=${importing} />
   </div>`;
 }

@@ -1,56 +1,56 @@
 /** Depot, fleet and day of an import: what no sheet of customers says. */
 
-import { FIELDS, readFields } from '../core/importing.js';
+import {
+  assumedOf, FIELDS, listedFleet, MORE_FIELDS, readFields,
+} from '../core/importing.js';
 import { change, type } from '../importing.js';
 import { html } from '../libraries.js';
 import { t } from '../texts.js';
 
-/** The fields, each with what is taken where it is empty. */
+const COLUMNS = ['id', 'count', 'capacity', 'shift', 'breaks'];
+
+/** The vehicles of the file, if it lists any; the fields that matter, the others folded away. */
 export function ImportFields({ importing: { reply, texts, choices } }) {
   const { wrong } = readFields(texts);
   const asksDay =
     !reply.questions?.some(({ kind }) => kind === 'day') &&
     (reply.day || reply.errors.some(({ code }) => code === 'SEVERAL_DAYS'));
-  return html`<fieldset class="import-fields"><legend>${t('import.fleet')}</legend>
-    ${FIELDS.map((field) => html`<${TextField} key=${field.name} field=${field} reply=${reply}
-      value=${texts[field.name] ?? ''} isWrong=${wrong.includes(field.name)} />`)}
-    ${
-      asksDay &&
-      html`<label>${t('import.day')}<input type="date" value=${choices.day ?? reply.day ?? ''}
-        onChange=${(event) =>
-          change({ choices: { ...choices, day: event.target.value || null } })} /></label>`
-    }</fieldset>`;
+  const fields = (listed) => html`<div class="import-fields">${listed.map(
+    (field) => html`<${TextField} key=${field.name} field=${field} reply=${reply}
+      value=${texts[field.name] ?? ''} isWrong=${wrong.includes(field.name)} />`,
+  )}${
+    listed === FIELDS &&
+    asksDay &&
+    html`<label>${t('import.day')}<input type="date" value=${choices.day ?? reply.day ?? ''}
+      onChange=${(event) =>
+        change({ choices: { ...choices, day: event.target.value || null } })} /></label>`
+  }</div>`;
+  const isOpen = MORE_FIELDS.some(({ name }) => texts[name]);
+  return html`<section aria-labelledby="import-fleet-title">
+    <h3 id="import-fleet-title">${t('import.fleet')}</h3>
+    <${Listed} reply=${reply} />${fields(FIELDS)}
+    <details open=${isOpen}><summary>${t('import.moreFields')}</summary>${fields(MORE_FIELDS)}
+    </details></section>`;
 }
 
-function TextField({ field: { name, example, empty = '' }, reply, value, isWrong }) {
-  const help = t(`import.help.${name}`);
-  return html`<label><span>${t(`import.field.${name}`)} <small>${help}</small></span>
-    <input type="text" value=${value} id=${`import-${name}`} aria-invalid=${isWrong}
-      placeholder=${assumed(reply, name) ?? empty}
+function TextField({ field: { name, example }, reply, value, isWrong }) {
+  const taken = assumedOf(reply, name);
+  return html`<label><span>${t(`import.field.${name}`)} <small>${t(`import.help.${name}`)}</small>
+    </span><input type="text" value=${value} id=${`import-${name}`} aria-invalid=${isWrong}
+      aria-describedby=${`import-${name}-taken`}
       onInput=${(event) => type(name, event.target.value)} onChange=${() => change({})} />
+    <small id=${`import-${name}-taken`}>${!value && taken && t('import.taken', { taken })}</small>
     ${isWrong && html`<span class="error">${t('import.writeAs', { example })}</span>`}</label>`;
 }
 
-/** Return what is taken where nothing is stated, of several types what they have in common. */
-function assumed({ request }, name) {
-  if (!request) return null;
-  const alike = (value) => {
-    const [first, ...others] = request.fleet.map(value);
-    return others.every((other) => other === first) ? first : undefined;
-  };
-  const geographic = request.coordinate_system === 'geographic';
-  const depot = request.depots[0].location;
-  return {
-    depot: Array.isArray(depot) ? (geographic ? [...depot].reverse() : depot).join(', ') : null,
-    vehicles: String(request.fleet.reduce((sum, { count }) => sum + count, 0)),
-    capacity: text(alike(({ capacity }) => capacity.join(' '))),
-    max_trips: text(alike((kind) => kind.max_trips)),
-    per_hour: text(alike(({ costs }) => costs?.per_hour)),
-    per_km: text(alike(({ costs }) => costs?.per_km)),
-    currency: request.currency,
-  }[name];
-}
-
-function text(value) {
-  return value === undefined ? null : String(value);
+/** The vehicles as the file lists them; fields beside them hold for all. */
+function Listed({ reply }) {
+  const fleet = listedFleet(reply);
+  if (!fleet.length) return null;
+  return html`<div class="import-table" tabindex="0" role="region"
+    aria-label=${t('import.listed')}><table><thead><tr>${COLUMNS.map(
+      (name) => html`<th key=${name} scope="col">${t(`import.listedAs.${name}`)}</th>`,
+    )}</tr></thead><tbody>${fleet.map((kind) => html`<tr key=${kind.id}>${COLUMNS.map(
+      (name) => html`<td key=${name}>${kind[name]}</td>`,
+    )}</tr>`)}</tbody></table></div>`;
 }

@@ -93,17 +93,26 @@ function Ground({ request, places, isPlacing }) {
     return () => made.destroy();
   }, []);
   useEffect(() => view?.shade(dark), [view, dark]);
-  const seen = String(boundsOf(request.customers.map(placeOf).filter(Boolean)));
+  const seen = String(boundsOf(placesIn(request)));
   useEffect(() => view && lookAt(view, request, config), [view, seen]);
   useEffect(() => view?.draw(shown, null, new Map(), dark), [view, shown, dark]);
   return html`<div class=${`map ${isPlacing ? 'drawing' : ''}`} ref=${element}
     role="application" aria-label=${t('import.map')}></div>`;
 }
 
+/** Return where customers are, and both ends of shipments. */
+function placesIn({ customers, shipments = [] }) {
+  const ends = shipments.flatMap(({ pickup, pickups, delivery }) => [
+    ...(pickups ?? [pickup]),
+    delivery,
+  ]);
+  return [...customers, ...ends].map(placeOf).filter(Boolean);
+}
+
 /** Show all places of a request, else the first streets that there are. */
 function lookAt(view, request, { streets }) {
   view.map.invalidateSize({ animate: false });
-  if (request.customers.some(placeOf)) {
+  if (placesIn(request).length) {
     view.fit(request);
   } else if (streets.length) {
     const [west, south, east, north] = streets[0].bounds;
