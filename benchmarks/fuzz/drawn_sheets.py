@@ -170,6 +170,11 @@ def orders(sheet: Sheet, count: int) -> list[dict[str, Any]]:
     _amounts(sheet, truth)
     _windows(sheet, truth)
     _service(sheet, truth)
+    if sheet.rng.random() < 0.15:
+        crews = [("T-1", "T-2")[row % 2] for row in range(count)]
+        sheet.add("crew", list(crews))
+        for entry, crew in zip(truth, crews, strict=True):
+            entry["crew"] = [crew]
     return truth
 
 

@@ -16,7 +16,7 @@ from app.formats.sheets.schemas import ImportReply, ImportSettings
 from benchmarks.fuzz.drawn_sheets import DAY, Drawn, drawn, words
 
 NOTES = ("RIDES_BACK", "MIDNIGHT", "TOTAL_LEFT_OUT", "ENCODING_GUESSED", "OTHER_DAYS", "NO_AMOUNTS",
-         "ROWS_JOINED", "TRIPS_ASSUMED", "SKILLS_ASSUMED")
+         "ROWS_JOINED", "FLEET_NAMED")
 """Doubts that tell what was done, and are no mark."""
 
 READINGS = ("right, quiet", "right, marked", "wrong, marked", "wrong, quiet")
@@ -26,7 +26,7 @@ def read(sheet: Drawn) -> ImportReply:
     """Return how a drawn sheet is read, with nothing stated but fleet and depot."""
     lat, lon = words()[sheet.language]["near"]
     return import_file(sheet.content, ImportSettings.model_validate({
-        "depot": f"{lat}, {lon}", "vehicles": 3, "shift": "5:00-22:00",
+        "depot": f"{lat}, {lon}", "shift": "5:00-22:00",
         "day": DAY.isoformat()}))
 
 
@@ -57,7 +57,8 @@ def wrongs_of(sheet: Drawn, reply: ImportReply) -> list[str]:
 def _customer(stated: dict[str, Any]) -> dict[str, Any]:
     lon, lat = stated["location"]
     return {"name": stated["id"], "place": (lat, lon), "demand": stated["demand"],
-            "window": _window(stated), "service": stated.get("service_duration", 0)}
+            "window": _window(stated), "service": stated.get("service_duration", 0),
+            "crew": stated.get("vehicles", {}).get("allowed", [])}
 
 
 def _shipment(stated: dict[str, Any]) -> dict[str, Any]:

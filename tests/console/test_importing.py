@@ -90,6 +90,7 @@ def test_trips_costs_and_currency_are_assumed_told_and_changed(
     expect(shown.get_by_text("Vehicles may go out again")).to_be_visible()
     for field, assumed in (("max_trips", "5"), ("per_hour", hour), ("currency", currency)):
         expect(page.locator(f"#import-{field}-taken")).to_have_text(f"taken: {assumed}")
+    shown.get_by_text("More of trips, costs and drones").click()
     state_field(page, "max_trips", "1")
     state_field(page, "per_hour", "20")
     state_field(page, "currency", "pln")
@@ -189,7 +190,7 @@ def test_what_is_doubtful_is_said_and_taken_as_right(page: Page) -> None:
     read_anew(page)
     expect(heading).not_to_contain_text("At the pickup")
     use(page)
-    planned(page, "1 of 1 served")
+    planned(page, "2 of 2 served")
 
 
 def test_cells_are_pasted_from_a_sheet(page: Page) -> None:

@@ -10,6 +10,7 @@ from app.formats.sheets.meanings import MEANINGS
 from app.formats.sheets.schemas import Certainty
 
 SAMPLED = 50
+LONGEST_GROUP = 20
 
 FOR_DRIVERS = frozenset(("phone", "email", "contact", "notes", "priority", "info", "order",
                          "layer"))
@@ -43,6 +44,13 @@ def _may_matter(column: Column, cells: Sequence[Raw], is_named: bool) -> bool:
     if is_known(column.heading):
         likely = guesses(column.heading)[0].meaning
         return likely not in FOR_DRIVERS and likely != "name" and MEANINGS[likely].kind != "text"
-    if not is_named and all(any(map(str.isalpha, shown(raw))) for raw in cells):
+    if all(any(map(str.isalpha, shown(raw))) for raw in cells) and (
+            not is_named or _are_groups(cells)):
         return True
     return all(_TELLING.fullmatch(shown(raw)) for raw in cells)
+
+
+def _are_groups(cells: Sequence[Raw]) -> bool:
+    """Tell whether words divide rows, as crews, areas and skills do."""
+    words = {shown(raw) for raw in cells}
+    return 1 < len(words) <= len(cells) / 2 and max(map(len, words)) <= LONGEST_GROUP

@@ -18,6 +18,9 @@ CUSTOMERS_PER_VEHICLE = 25
 
 TYPE_ID = "vehicle"
 
+MOST_NAMED = 100
+"""Vehicles that orders may name for these to be the fleet."""
+
 TRIPS = 5
 """Most trips of a vehicle where none are stated: whoever is back may take what came later."""
 
@@ -50,7 +53,8 @@ def fleet_of(stops: Sequence[Entry], columns: Sequence[Column], settings: Import
     """
     doubts: list[Doubt] = []
     kinds = (_listed(vans, stops, columns, settings) if vans
-             else [_assumed(stops, columns, settings, least, doubts)])
+             else _named(stops, columns, settings, doubts)
+             or [_assumed(stops, columns, settings, least, doubts)])
     if settings.shift is None and any("shift" not in kind for kind in kinds):
         doubts.append(Doubt("SHIFT_ASSUMED", "No shift is stated: vehicles work at any time."))
     common: Data = {}
@@ -76,6 +80,29 @@ def _completed(kind: Data, common: Data) -> Data:
         "costs": costs}
 
 
+def _named(stops: Sequence[Entry], columns: Sequence[Column], settings: ImportSettings,
+           doubts: list[Doubt]) -> list[Data]:
+    """Return a type for each vehicle or crew that orders name; none unless each names one.
+
+    In place.
+    """
+    told = [entry.customer.get("vehicles", {}).get("allowed", ()) for entry in stops]
+    names = list(dict.fromkeys(name for allowed in told for name in allowed))
+    if settings.vehicles is not None or not all(told) or not 1 < len(names) <= MOST_NAMED:
+        return []
+    doubts.append(Doubt("FLEET_NAMED", f"The vehicles are those that orders name: "
+                        f"{', '.join(names[:10])}."))
+    if settings.capacity is None:
+        doubts.append(_all_fits())
+    capacity = _capacity(stops, columns, settings)
+    return [{"id": name, "count": 1, "capacity": capacity} for name in names]
+
+
+def _all_fits() -> Doubt:
+    return Doubt("CAPACITY_ASSUMED", "No capacity is stated: each vehicle holds everything that is "
+                 "to be delivered.")
+
+
 def _assumed(stops: Sequence[Entry], columns: Sequence[Column], settings: ImportSettings,
              least: int, doubts: list[Doubt]) -> Data:
     """Return a type as stated; note what isn't. In place."""
@@ -85,8 +112,7 @@ def _assumed(stops: Sequence[Entry], columns: Sequence[Column], settings: Import
         doubts.append(Doubt("FLEET_ASSUMED", f"No number of vehicles is stated: {count} "
                             f"{'is' if count == 1 else 'are'} assumed."))
     if settings.capacity is None:
-        doubts.append(Doubt("CAPACITY_ASSUMED", "No capacity is stated: each vehicle holds "
-                            "everything that is to be delivered."))
+        doubts.append(_all_fits())
     return {"id": TYPE_ID, "count": count, "capacity": _capacity(stops, columns, settings)}
 
 

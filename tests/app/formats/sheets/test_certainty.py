@@ -40,6 +40,13 @@ def test_words_are_open_where_nothing_names_customers() -> None:
     assert certainty(read("Kunde;Kz.;Lat;Lon", *rows), "Kz.")[1] == "unused"
 
 
+def test_words_that_divide_rows_are_open() -> None:
+    rows = [f"{name};48,1;11,5;{group}" for name, group in zip("ABCD", ("rot", "blau") * 2,
+                                                             strict=True)]
+    assert certainty(read("Name;Lat;Lon;Zauber", *rows), "Zauber")[1] == "open"
+    assert certainty(read("Name;Lat;Lon;Vertreter", *rows), "Vertreter")[1] == "unused"
+
+
 def test_half_a_pair_is_doubtful_and_plans_nothing() -> None:
     reply = read("Name;Lat;XQ", "A;48,1;11,5", "B;48,2;11,6")
     assert certainty(reply, "Lat") == ("latitude", "doubtful")
@@ -84,6 +91,16 @@ def test_a_last_row_of_bare_sums_is_no_customer(last: str) -> None:
 def test_crews_name_vehicles(heading: str) -> None:
     reply = read(f"Name;Lat;Lon;{heading}", "A;48,1;11,5;E1", "B;48,2;11,6;E2")
     assert certainty(reply, heading) == ("vehicles", "sure")
+    assert reply.request is not None
+    assert [kind["id"] for kind in reply.request["fleet"]] == ["E1", "E2"]
+    assert [customer["vehicles"] for customer in reply.request["customers"]] == [
+        {"allowed": ["E1"]}, {"allowed": ["E2"]}]
+    assert "FLEET_NAMED" in [doubt.code for doubt in reply.doubts]
+
+
+def test_crews_that_some_orders_name_alone_are_told() -> None:
+    reply = read("Name;Lat;Lon;Team", "A;48,1;11,5;E1", "B;48,2;11,6;", "C;48,2;11,6;E2")
+    assert {error.code for error in reply.errors} == {"UNKNOWN_VEHICLE"}
 
 
 @pytest.mark.parametrize(("encoding", "name"), [

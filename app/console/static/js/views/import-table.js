@@ -10,7 +10,7 @@ const EXAMPLE = new URL('../../examples/working-day.xlsx', import.meta.url).href
 /** The table; under each heading its meaning is chosen, the likeliest first. */
 export function ImportTable({ reply: { columns, meanings, table_rows: rows } }) {
   const marked = columns.filter(isMarked).length;
-  return html`<section aria-labelledby="import-table-title">
+  return html`<div>
     <h3 id="import-table-title">${t('import.columns')}
       ${marked > 0 && html` <button type="button" class="to-look-at" onClick=${lookAtNext}>
         ${t('import.marked', { count: marked })}</button>`}</h3>
@@ -21,7 +21,7 @@ export function ImportTable({ reply: { columns, meanings, table_rows: rows } }) 
         ${columns.map((column) => html`<${Cell} key=${column.column} column=${column}
           cell=${column.cells[at]} />`)}</tr>`)}</tbody></table></div>
     <p><a href=${EXAMPLE} download="working-day.xlsx">${t('import.exampleSheet')}</a></p>
-  </section>`;
+  </div>`;
 }
 
 /** Move to the next column that is to be looked at, behind the last the first. */
