@@ -17,8 +17,9 @@ FOR_DRIVERS = frozenset(("phone", "email", "contact", "notes", "priority", "info
 """Meanings that no plan goes by: left out of it, nothing is planned wrongly."""
 
 _TELLING = re.compile(
-    r"-?\d{1,6}(?:[.,]\d++)?|\d{1,2}[:.h]\d{2}.*+|.*\d{1,2}:\d{2}(?::\d{2})?"
-    r"|-?\d{1,3}[.,]\d++[ ,;/]++-?\d{1,3}[.,]\d++|\d++(?:[.,]\d++)? ?[a-z]{1,4}\.?", re.IGNORECASE)
+    r"\A(?:-?\d{1,6}(?:[.,]\d++)?|\d{1,2}[:.h]\d{2}.*+|.*\d{1,2}:\d{2}(?::\d{2})?"
+    r"|-?\d{1,3}[.,]\d++[ ,;/]++-?\d{1,3}[.,]\d++|\d++(?:[.,]\d++)? ?[a-z]{1,4}\.?)",
+    re.IGNORECASE)
 """Cells that may be amounts, times, coordinates: no phones, nor numbers of orders."""
 
 
