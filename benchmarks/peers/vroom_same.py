@@ -30,7 +30,7 @@ from benchmarks.peers.vroom_requests import (
 )
 from model.dialects.vroom.planning import Planning
 from model.dialects.vroom.work import LegLimit
-from model.planner import Listener, Planner, PlanOptions, PlanResult, Progress, load_planner
+from model.planner import Planner, PlanOptions, PlanResult, load_planner
 from model.problem import Problem
 from model.solution import Solution
 
@@ -120,10 +120,9 @@ def requests(seeds: int) -> Iterator[tuple[str, str, Data]]:
 
 def plan_by_turns(planner: Planner, turns: int) -> Callable[..., PlanResult]:
     """Return what plans a stage by a number of turns."""
-    def plan(problem: Problem, options: PlanOptions, start: Solution,
-             tell: Callable[[Progress], None]) -> PlanResult:
+    def plan(problem: Problem, options: PlanOptions, start: Solution) -> PlanResult:
         options = replace(options, time_limit=UNTIMED, search_iterations=turns)
-        return planner.plan(problem, options, listener=Listener(lambda: False, tell), start=start)
+        return planner.plan(problem, options, start=start)
 
     return plan
 

@@ -107,6 +107,9 @@ inline bool may_travel(const VehicleType& type, Int travel) {
     return travel <= type.max_travel_duration;
 }
 
+// Whose legs tell how far it drives, where that is limited.
+inline Int limited_travel(const VehicleType& type) { return type.limited_travel; }
+
 // Whether a vehicle may drive such legs, without setups, on all its trips together.
 inline bool may_drive_all(const VehicleType& type, Leg legs) {
     return may_travel(type, legs.duration) && legs.distance <= type.max_distance;

@@ -344,9 +344,9 @@ void apply(const Instance& instance, State& state, Int r, Int action) {
         launch(open, target);
     } else {
         Vehicle& vehicle = open.vehicle;
-        const Leg way = leg_of(open.setting, vehicle.node, target);
-        vehicle.distance += way.distance;
-        vehicle.legs = vehicle.legs + way;
+        const Int travel = open.setting.type.travel;
+        vehicle.distance += instance.distance(b, travel, vehicle.node, target);
+        vehicle.legs = vehicle.legs + leg_of(open.setting, vehicle.node, target);
         drive(open, target);
     }
     improve_departure(open);

@@ -212,9 +212,9 @@ struct TripProgress {
     Int distance;
     Leg legs;
 
-    void drive(Leg leg) {
-        distance += leg.distance;
-        legs = legs + leg;
+    void drive(Int far, Leg counted) {
+        distance += far;
+        legs = legs + counted;
     }
 };
 
@@ -229,7 +229,7 @@ bool is_within_reach(const OpenVehicle& open, View<const Int, 2> legs, TripProgr
     const VehicleType& type = open.setting.type;
     Int here = open.vehicle.node;
     for (const Int node : order) {
-        way.drive(leg_of(open.setting, here, node));
+        way.drive(legs(here, node), leg_of(open.setting, here, node));
         here = node;
     }
     return way.distance + legs(here, type.ends_at) <= longest_trip(type) &&
@@ -307,7 +307,7 @@ bool legal_by_trial(const Rollout& rollout, Int reload, Service service, Outlook
     const Int start = reload == no_reload ? vehicle.node : reload;
     TripProgress way = {reload == no_reload ? vehicle.distance : 0, vehicle.legs};
     if (reload != no_reload) way.legs = way.legs + leg_of(setting, vehicle.node, reload);
-    if (!by_drone) way.drive(leg_of(setting, start, node));
+    if (!by_drone) way.drive(legs(start, node), leg_of(setting, start, node));
     if (!attempt(rollout, open, reload, service)) return false;
     const Int here = log.count.stops - 1;
     const Order aboard = some_paired(setting.pair) ? parcels_aboard(setting, log) : Order();

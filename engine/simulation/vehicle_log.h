@@ -76,9 +76,10 @@ inline Int travel_of(const Setting& setting, Int origin, Int to) {
     return setting.drive(origin, to) - setup;
 }
 
-// A leg of the truck, likewise.
+// A leg of the truck, likewise, as it counts where that is limited.
 inline Leg leg_of(const Setting& setting, Int origin, Int to) {
-    return {travel_of(setting, origin, to), setting.distances(setting.type.travel, origin, to)};
+    return {travel_of(setting, origin, to),
+            setting.distances(limited_travel(setting.type), origin, to)};
 }
 
 // Whether a vehicle that has driven such legs may go home from a node.

@@ -33,8 +33,11 @@ def write_type(row: Record, kind: VehicleType, ways: Sequence[Variation], **othe
     What isn't said is 0.
     """
     load, profile = kind.initial_load or (0,) * len(kind.capacity), kind.speed_profile
+    own = way_of(kind, True)
+    limited = own if kind.limited is None else Variation(kind.limited, False)
     said = {
-        **_as_stated(kind), "travel": index_of(ways, way_of(kind, True)),
+        **_as_stated(kind), "travel": index_of(ways, own),
+        "limited_travel": index_of(ways, limited),
         "changes_ends": _changes_ends(kind), "shift_earliest": kind.earliest,
         "begun": kind.works_since is not None, **_limits_of_work(kind),
         "max_travel_duration": longest_travel(kind), "max_sorties": most_sorties(kind),

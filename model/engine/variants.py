@@ -91,6 +91,8 @@ def ways_of(problem: Problem) -> list[Variation]:
     ways: dict[Variation, None] = {}
     for kind in problem.vehicle_types:
         ways[way_of(kind, True)] = None
+        if kind.limited is not None:
+            ways[Variation(kind.limited, False)] = None
         if kind.max_range is not None:
             ways[Variation(kind.straight, False)] = None
         for drones in kind.drone_types:

@@ -4,10 +4,11 @@ All that is not a rest, or a part of one, is work, waiting and short breaks incl
 """
 
 from collections.abc import Iterable, Iterator, Sequence
+from itertools import pairwise
 from typing import NamedTuple
 
 from model.judge.breaks import begin_of
-from model.problem import REST, DrivingRules, VehicleType
+from model.problem import REST, DrivingRules, Problem, VehicleType
 from model.solution import Sortie, Trip
 
 
@@ -36,6 +37,13 @@ def travel_duration(trips: Iterable[Trip]) -> int:
     """Return how long a truck is on the legs of its trips."""
     return sum([spell.end - spell.begin for trip in trips for spell in spells(trip)
                 if not spell.is_break])
+
+
+def limited_distance(problem: Problem, kind: VehicleType, trips: Sequence[Trip]) -> int:
+    """Return how far a truck drives on all its trips, as that is limited."""
+    legs = problem.travel[kind.travel if kind.limited is None else kind.limited].distance
+    return sum([legs.item(here.node, there.node)
+                for trip in trips for here, there in pairwise(trip.stops)])
 
 
 class Driver:

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from operator import gt
 
 from model.judge.breaks import broken_breaks
-from model.judge.driving import broken_driving, travel_duration
+from model.judge.driving import broken_driving, limited_distance, travel_duration
 from model.judge.energy import charges, sortie_energy
 from model.judge.flown_trips import airborne, trip_charges
 from model.judge.freshness import excess_aboard
@@ -380,7 +380,8 @@ def route_violations(
     if limit is not None and travel > limit:
         message = f"is on legs for {seconds(travel)}, at most {seconds(limit)} are allowed"
         yield Violation("TRAVEL_DURATION", message, path)
-    distance, limit = sum(trip.distance for trip in metrics.trips), vehicle_type.max_distance
+    limit = vehicle_type.max_distance
+    distance = limited_distance(problem, vehicle_type, [timed.trip for timed in trips])
     if limit is not None and distance > limit:
         message = f"drives {decimal(distance)} m, at most {decimal(limit)} m are allowed"
         yield Violation("DISTANCE", message, path)

@@ -96,6 +96,7 @@ class VehicleType:
     max_working_duration: Milliseconds | None = None
     max_trip_distance: Millimetres | None = None
     max_distance: Millimetres | None = None  # of all its trips together
+    limited: int | None = None  # index into Problem.travel, whose distances count for that
     max_travel_duration: Milliseconds | None = None  # on legs, of all its trips together
     overtime: Overtime | None = None  # None: shift and working duration can't be exceeded
     max_trips: Count = 1

@@ -142,7 +142,7 @@ class Problem:
                  f"{name} reload_depots", vehicle_type.reload_depots)
         require(len(vehicle_type.initial_load) in (0, self.num_dimensions), f"{name} initial_load",
                  vehicle_type.initial_load)
-        for travel in (vehicle_type.travel, vehicle_type.straight):
+        for travel in (vehicle_type.travel, vehicle_type.straight, vehicle_type.limited or 0):
             require(0 <= travel < len(self.travel), f"{name} travel", travel)
         require(vehicle_type.energy is None
                 or vehicle_type.energy.dimension < self.num_dimensions, f"{name} energy",

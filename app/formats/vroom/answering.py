@@ -31,7 +31,7 @@ from model.dialects.vroom.request import Request
 from model.dialects.vroom.timing import RouteTimer, TimedVroomRoute
 from model.dialects.vroom.work import LegLimit
 from model.engine.cores import num_cores
-from model.planner import Listener, Planner, PlanOptions, PlanResult, Progress
+from model.planner import Listener, Planner, PlanOptions, PlanResult
 from model.problem import Problem
 from model.solution import Solution
 
@@ -115,9 +115,8 @@ def _answer(planner: Planner, stated: VroomRequest, places: StatedPlaces, body: 
         planner.policies[0],
         threads=min(stated.options.t or settings.search_threads, num_cores()))
 
-    def plan(problem: Problem, options: PlanOptions, start: Solution,
-             tell: Callable[[Progress], None]) -> PlanResult:
-        return planner.plan(problem, options, listener=Listener(preparing.should_stop, tell),
+    def plan(problem: Problem, options: PlanOptions, start: Solution) -> PlanResult:
+        return planner.plan(problem, options, listener=Listener(preparing.should_stop),
                             start=start)
 
     limit = LegLimit(settings.max_legs, "TANDEM_MAX_LEGS")

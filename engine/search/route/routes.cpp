@@ -82,7 +82,8 @@ Int timed_travel(const Truck& truck, View<const Stop, 1> stops) {
 
 Leg leg_between(const ProblemData& data, const VehicleType& type, Int from, Int to) {
     const Int setup = is_steady(type) ? setup_after(data.setup, from, to) : 0;
-    return leg(legs_of(data.leg, type.travel), from, to) - Leg{setup, 0};
+    return {leg(legs_of(data.leg, type.travel), from, to).duration - setup,
+            leg(legs_of(data.leg, limited_travel(type)), from, to).distance};
 }
 
 Leg legs_on(const ProblemData& data, const VehicleType& type, View<const Stop, 1> stops, Int first,

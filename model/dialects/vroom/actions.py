@@ -17,16 +17,17 @@ class Actions:
 
     The planner's windows bound the start of service, VROOM's that of setup. Whose setup can't be
     left out, since nothing else is at the same place, has one that is a part of its service. Others
-    who may be served at any time have the planner's setup. What takes both a setup that may be left
-    out and a window is planned as if it were always needed, so that the plan can only be early; or,
-    relaxed, as the planner's setup, though its window is another one then.
+    who may be served at any time have the planner's setup. With windows a setup is planned as if it
+    were always needed; or, where that of all at the place takes longer than a window, as the
+    planner's, behind windows that open so much later. Both may leave too little time, and never too
+    much: the planner's windows can't hang on who comes before.
 
     The planner's setup is the same for all types of vehicles: what one needs more than the least is
     a part of its way there.
     """
 
     def __init__(self, request: Request, places: Sites, kinds: tuple[VehicleKind, ...],
-                 nodes: Nodes, is_timed: bool, relaxed: bool) -> None:
+                 nodes: Nodes, is_timed: bool) -> None:
         self._nodes = nodes
         types = dict.fromkeys(kind.type for kind in kinds)
         jobs = [request.jobs[job] for job in nodes.jobs]
@@ -38,9 +39,13 @@ class Actions:
         counts = np.bincount(np.array(used, np.int64) + 1, minlength=2)
         is_shared = counts[places.jobs[list(nodes.jobs)] + 1] > 1
         is_open = np.array([job.time_windows is None for job in jobs], np.bool_)
-        has_setup = np.any([setup > 0 for setup in self._setup.values()], axis=0)
-        self.is_compromise = is_timed and bool((is_shared & ~is_open & has_setup).any())
-        self._once = is_shared & (is_open | relaxed)
+        most: IntArray = np.max(list(self._setup.values()), axis=0)
+        shortest = np.array([min((end - begin for begin, end in job.time_windows or ()), default=0)
+                             for job in jobs], np.int64)
+        all_setups = counts[places.jobs[list(nodes.jobs)] + 1] * most
+        self._once = is_shared & (is_open | ((most <= shortest) & (shortest < all_setups)))
+        self.opens_later: IntArray = np.where(is_open | ~self._once, 0, most)
+        """(job,) than VROOM's its windows do."""
         # Without windows nothing hangs on times.
         self._counts = int(is_timed)
         self._before: Mapping[str, IntArray] = {

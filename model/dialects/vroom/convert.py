@@ -12,7 +12,7 @@ from model.dialects.vroom.drives import Drive, Drives
 from model.dialects.vroom.errors import RefusedError, TooLargeError
 from model.dialects.vroom.kinds import VehicleKind, find_kinds, find_loads
 from model.dialects.vroom.models import Model
-from model.dialects.vroom.nodes import LONGEST, PARTS, Nodes
+from model.dialects.vroom.nodes import LONGEST, PARTS, Terminus, Nodes
 from model.dialects.vroom.places import NOWHERE, Sites
 from model.dialects.vroom.request import Job, Request, VroomVehicle, Window
 from model.dialects.vroom.rests import Rests
@@ -22,7 +22,7 @@ from model.dialects.vroom.work import (
     UNHURRIED, LegLimit, Pause, VroomWork, attempt_seconds, model_seconds,
 )
 from model.problem import (
-    MAX_QUANTITY, MM_PER_KM, MS_PER_HOUR, UNLIMITED, BoolArray, Break, Customer, Depot, FloatArray,
+    MAX_QUANTITY, MM_PER_KM, UNLIMITED, BoolArray, Break, Customer, Depot, FloatArray,
     IntArray, Problem, Shipment, Travel, VehicleType,
 )
 
@@ -51,6 +51,8 @@ class Converter:
         self.kinds = find_kinds(request, places)
         self._is_timed = windows_bind(request, places, self.kinds)
         self._rests = Rests(self.kinds, self._is_timed)
+        self._ends = [(Terminus(kind.start), Terminus(kind.end, self._rests.latest_begin(number)))
+                       for number, kind in enumerate(self.kinds)]
         self._origin = self._find_origin()
         self._shifts = {self._shift(kind) for kind in self.kinds}
         self._windows = [self._reachable(self._stated(job)) for job in request.jobs]
@@ -59,8 +61,6 @@ class Converter:
     def model(self, jobs: Sequence[int], preparing: VroomWork = UNHURRIED) -> Model:
         """Return the problem of serving jobs, at least one.
 
-        Where both it and a relaxed one are more than there is time for, it stands alone.
-
         Raises
         ------
         RefusedError
@@ -68,31 +68,18 @@ class Converter:
         Exception
             If the work on it is to end, what `preparing` raises.
         """
-        nodes = Nodes.of(self._places, self.kinds, jobs)
+        nodes = Nodes.of(self._places, self._ends, jobs)
         number = len(nodes.sites)
         if number**2 > self._max_legs.legs:
             raise TooLargeError("Too many starts and ends of vehicles and jobs "
                                 f"({number}), maximum is {isqrt(self._max_legs.legs)} "
                                 f"({self._max_legs.setting})")
-        drives = self._drives(nodes, relaxed=False, pause=preparing.pause)
+        drives = Drives(self._request, self._places, self.kinds, nodes, self._is_timed,
+                        preparing.pause)
         ways = drives.count(self.kinds)
         self._require_room(drives, ways, number)
-        once = model_seconds(number, ways) + attempt_seconds(number, ways)
-        preparing.expect(once)
-        relaxes = (drives.is_compromise or self._rests.differ) and preparing.allows(2 * once)
-        if relaxes:
-            self._require_room(drives, 2 * ways, number)
-        problem = self._problem(nodes, drives, relaxed=False)
-        relaxed: tuple[Problem, ...] = ()
-        if relaxes:
-            looser = self._drives(nodes, relaxed=True, pause=preparing.pause)
-            relaxed = (self._problem(nodes, looser, relaxed=True),)
-        return Model(problem, nodes, relaxed, self._gaps,
-                     is_wide=self._has_longest or not self._rests.are_exact)
-
-    def _drives(self, nodes: Nodes, relaxed: bool, pause: Pause) -> Drives:
-        return Drives(self._request, self._places, self.kinds, nodes, self._is_timed, relaxed,
-                      pause)
+        preparing.expect(model_seconds(number, ways) + attempt_seconds(number, ways))
+        return Model(self._problem(nodes, drives), nodes, self._gaps)
 
     def _require_room(self, drives: Drives, ways: int, nodes: int) -> None:
         """Refuse more matrices, and more tables of how jobs are served, than are held at a time."""
@@ -104,25 +91,28 @@ class Converter:
                                 f"{services} to serve there, maximum is {self._max_legs.legs} legs "
                                 f"({self._max_legs.setting}).")
 
-    def _problem(self, nodes: Nodes, drives: Drives, relaxed: bool) -> Problem:
+    def _problem(self, nodes: Nodes, drives: Drives) -> Problem:
         """Return the problem by given drives."""
-        depots = {site: node for node, site in enumerate(nodes.depots)}
+        depots = {end: node for node, end in enumerate(nodes.depots)}
         actions = drives.actions
         unlike = {kind.type: self._unlike(nodes.jobs, actions, kind.type) for kind in self.kinds}
         vehicle_types = tuple(
-            self._vehicle_type(number, depots[kind.start], depots[kind.end], drives.drive(kind),
-                               unlike[kind.type], self._breaks(number, relaxed))
-            for number, kind in enumerate(self.kinds))
+            self._vehicle_type(number, depots[start], depots[end], drives.drive(kind),
+                               unlike[kind.type], self._breaks(number))
+            for number, (kind, (start, end)) in enumerate(
+                zip(self.kinds, self._ends, strict=True)))
         customers = tuple(
-            self._customer(job, int(site), service, setup)
-            for job, site, service, setup in zip(
+            self._customer(job, int(site), service, setup, later)
+            for job, site, service, setup, later in zip(
                 nodes.jobs, nodes.sites[len(depots):], actions.service(self.kinds[0].type).tolist(),
-                actions.setup.tolist(), strict=True))
+                actions.setup.tolist(), actions.opens_later.tolist(), strict=True))
         travels = tuple(drives.travels)
         return Problem(
-            depots=tuple(Depot(str(node), "nowhere") if site == NOWHERE
-                         else Depot(str(node), site=site)
-                         for node, site in enumerate(nodes.depots)),
+            depots=tuple(Depot(
+                str(node), "nowhere" if end.site == NOWHERE else "depot",
+                site=None if end.site == NOWHERE else end.site,
+                earliest=0 if end.opens is None else self._instant(end.opens) + 1)
+                for node, end in enumerate(nodes.depots)),
             customers=customers,
             vehicle_types=vehicle_types, travel=travels,
             coordinates=self._coordinates(nodes, travels),
@@ -152,14 +142,14 @@ class Converter:
             gaps.setdefault(self._rests.number_of(kind, rest.number), rest.gap)
         return [*gaps.items()]
 
-    def _breaks(self, kind: int, relaxed: bool) -> tuple[Break, ...]:
+    def _breaks(self, kind: int) -> tuple[Break, ...]:
         """Return the breaks of a kind on the planner's clock."""
         return tuple([
             Break(str(number), seconds * PARTS, self._instant(begin), self._last_instant(end),
                   anywhere=True, max_load=None if most is None or not self._loads.kept
                   else tuple([most[index] for index in self._loads.kept]))
             for number, ((seconds, (begin, end)), most)
-            in enumerate(self._rests.of(kind, relaxed))])
+            in enumerate(self._rests.of(kind))])
 
     def _unlike(self, jobs: Sequence[int], actions: Actions, name: str) -> dict[str, int]:
         """Return how long vehicles of a type serve jobs, by id, where the first ones don't."""
@@ -217,23 +207,24 @@ class Converter:
             capacity=tuple(self._loads.capacity[number].tolist()), travel=drive.travel, depot=start,
             end=end,
             fixed_cost=fixed_cost_of(kind.stated), cost_per_km=drive.cost_per_km,
-            cost_per_hour=drive.cost_per_hour,
             earliest=0 if window is None else self._instant(window[0]),
             latest=self._latest(window),
-            max_working_duration=drive.max_working, max_trip_distance=drive.max_distance,
+            max_trip_distance=drive.max_trip_distance,
+            max_travel_duration=drive.max_travel_duration, max_distance=drive.max_distance,
+            limited=drive.limited,
             max_stops=None if most is None else min(most, len(self._request.jobs)),
             skills=frozenset(map(str, kind.stated.skills)), service_durations=service_durations,
-            breaks=breaks)
+            breaks=breaks, works_since=None if self._ends[number][1].opens is None else 0)
 
     def _latest(self, window: Window | None) -> int:
         """Return when a vehicle's work has to end: before the end of any leg that isn't there."""
         latest = UNLIMITED if window is None else self._last_instant(window[1])
         return min(latest, MAX_QUANTITY - 1) if self._has_longest else latest
 
-    def _customer(self, job: int, site: int, service: int, setup: int) -> Customer:
-        """Return a job as the planner sees it; `service` and `setup` in seconds."""
+    def _customer(self, job: int, site: int, service: int, setup: int, later: int) -> Customer:
+        """Return a job as the planner sees it; windows open so many seconds `later`."""
         stated, windows = self._request.jobs[job], self._windows[job]
-        begins = [self._instant(begin) for begin, _ in windows] or [0]
+        begins = [self._instant(begin + later) for begin, _ in windows] or [0]
         ends = [self._last_instant(end) for _, end in windows] or [UNLIMITED]
         pickup = tuple(self._loads.pickup[job].tolist())
         return Customer(
@@ -293,24 +284,12 @@ def dearest_plan(vehicle_types: Sequence[VehicleType], travels: Sequence[Travel]
     """Return more than any plan costs: serving one job more is always worth it."""
     fixed = max(kind.fixed_cost for kind in vehicle_types)
     to_nodes = np.zeros(len(travels[0].distance))
-    for travel, per_km, per_hour in _dearest_tariffs(vehicle_types):
+    rates: dict[int, float] = {}
+    for kind in vehicle_types:
+        rates[kind.travel] = max(kind.cost_per_km, rates.get(kind.travel, 0.0))
+    for travel, per_km in rates.items():
         pause()
         cost = travels[travel].distance[:] * (per_km / MM_PER_KM)
-        if per_hour:
-            cost += travels[travel].duration[:] * (per_hour / MS_PER_HOUR)
         to_nodes = np.maximum(to_nodes, cost.max(axis=0))
     to_jobs, to_end = to_nodes[num_depots:], float(to_nodes[:num_depots].max())
     return 1.0 + float(to_jobs.sum()) + len(to_jobs) * (to_end + fixed)
-
-
-def _dearest_tariffs(vehicle_types: Sequence[VehicleType]) -> Iterator[tuple[int, float, float]]:
-    """Yield ways to travel with the rates of them by which no others are dearer."""
-    rates: dict[int, set[tuple[float, float]]] = {}
-    for kind in vehicle_types:
-        rates.setdefault(kind.travel, set()).add((kind.cost_per_km, kind.cost_per_hour))
-    for travel, pairs in rates.items():
-        most_per_hour = -1.0
-        for per_km, per_hour in sorted(pairs, reverse=True):
-            if per_hour > most_per_hour:
-                most_per_hour = per_hour
-                yield travel, per_km, per_hour

@@ -1,7 +1,8 @@
 """The best routes for a few jobs, by VROOM's own rules.
 
 What a vehicle can do with each set of jobs is found by dynamic programming, and so is who gets
-which set. The planner has no words for some of the rules, and is not needed for so few.
+which set. The planner proves nothing: it misses who fits only beside others that aren't there yet,
+and has no windows that setup begins in where there is any, else service.
 """
 
 from collections.abc import Callable, Mapping, Sequence

@@ -21,17 +21,8 @@ class Model:
 
     problem: Problem
     nodes: Nodes
-    relaxed: tuple[Problem, ...] = ()
-    """Where `problem` is stricter or costs otherwise than it should: the same by true costs, whose
-    plans may break rules. At most one."""
     rests: Callable[[int, Sequence[int]], Sequence[tuple[int, int]]] = lambda _kind, _jobs: ()
     """Return the breaks of a route by its kind and jobs, each with the gap in which it is taken."""
-    is_wide: bool = False  # whether legs are longer, or breaks tighter, than `problem` can tell
-
-    @property
-    def is_loose(self) -> bool:
-        """Whether its plans may break a rule of the request."""
-        return bool(self.relaxed) or self.is_wide
 
     def routes(self, solution: Solution) -> Routes:
         """Return the routes of a plan."""
@@ -59,7 +50,7 @@ class Model:
         The way through other jobs may be shorter than the direct one, so that only the shortest
         legs to and from a job count.
         """
-        problem = self.relaxed[0] if self.relaxed else self.problem
+        problem = self.problem
         customers, first = problem.customers, problem.num_depots
         latest = np.array([customer.latest for customer in customers], np.int64)
         most = np.array([problem.asked_at(first + index) for index in range(len(customers))])

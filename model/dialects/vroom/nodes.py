@@ -2,10 +2,10 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 
-from model.dialects.vroom.kinds import VehicleKind
 from model.dialects.vroom.places import NOWHERE, Sites
 from model.problem import MAX_QUANTITY, BoolArray, IntArray
 
@@ -16,19 +16,28 @@ LONGEST = MAX_QUANTITY // PARTS
 """Seconds, metres and costs of a leg above this count as this; it is longer than any plan."""
 
 
+class Terminus(NamedTuple):
+    """Where a route starts or ends."""
+
+    site: int  # perhaps NOWHERE
+    opens: int | None = None  # second after which any route is over
+
+
 @dataclass(frozen=True, eq=False)
 class Nodes:
     """Starts and ends of vehicles, the planner's depots; then jobs."""
 
-    depots: tuple[int, ...]  # sites, perhaps NOWHERE
+    depots: tuple[Terminus, ...]
     jobs: tuple[int, ...]  # index into the request's jobs
     sites: IntArray  # (node,) site or NOWHERE
 
     @classmethod
-    def of(cls, places: Sites, kinds: Sequence[VehicleKind], jobs: Sequence[int]) -> "Nodes":
-        """Return the nodes for vehicles and jobs."""
-        depots = tuple(dict.fromkeys(site for kind in kinds for site in (kind.start, kind.end)))
-        sites = np.concatenate([np.array(depots, np.int64), places.jobs[list(jobs)]])
+    def of(cls, places: Sites, ends: Sequence[tuple[Terminus, Terminus]],
+           jobs: Sequence[int]) -> "Nodes":
+        """Return the nodes for jobs, and for the starts and ends of kinds of vehicles."""
+        depots = tuple(dict.fromkeys(end for both in ends for end in both))
+        sites = np.concatenate([np.array([end.site for end in depots], np.int64),
+                                places.jobs[list(jobs)]])
         return cls(depots, tuple(jobs), sites)
 
     def of_job(self) -> dict[int, int]:

@@ -2,7 +2,8 @@
 
 VROOM maximises the sum of the priorities of jobs served, then their number, then minimises cost.
 Where not all can be served, a stage of its own chooses whom, by what leaving each job out costs.
-The planner knows not all of VROOM's rules, so that some plans are judged before they count.
+What the planner can't be told of VROOM's rules it is told more strictly, and VROOM's judge each
+route.
 """
 
 import logging
@@ -13,16 +14,14 @@ from operator import attrgetter
 
 from model.dialects.vroom.checking import drive, route_faults
 from model.dialects.vroom.convert import Converter
-from model.dialects.vroom.errors import RefusedError
 from model.dialects.vroom.exact import best_routes, is_few
 from model.dialects.vroom.models import Model, Routes
 from model.dialects.vroom.places import Sites
 from model.dialects.vroom.prices import leave_out_by_priority
-from model.dialects.vroom.repair import Mending, units_of
 from model.dialects.vroom.request import Request
 from model.dialects.vroom.work import UNHURRIED, LegLimit, VroomWork, attempt_seconds, model_seconds
 from model.judge.check import check
-from model.planner import PlanCheckError, PlanOptions, PlanResult, Progress
+from model.planner import PlanCheckError, PlanOptions, PlanResult
 from model.problem import Problem
 from model.solution import Solution
 
@@ -37,21 +36,14 @@ FIRST_LOOK = 0.1
 CHOOSING_JOBS = 0.7
 """Share of the rest for choosing whom to serve, if not; the remainder is for the routes."""
 
-RELAXED = 0.85
-"""Share of the time for relaxed problems, where there are any."""
-
 FEW_SECONDS = 2.0
 """For how long the best plan for few jobs is sought, however little time is stated."""
-
-MENDING = 0.2
-"""Share of the time of a problem whose plans may break rules, for mending the one found."""
 
 SPARE = 3.0
 """Stages pay while there is time for so many problems to be built and planned."""
 
-Tell = Callable[[Progress], None]
-Plan = Callable[[Problem, PlanOptions, Solution, Tell], PlanResult]
-"""Plans a problem from a plan to improve, and tells of plans that it finds meanwhile."""
+Plan = Callable[[Problem, PlanOptions, Solution], PlanResult]
+"""Plans a problem from a plan to improve."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -96,14 +88,12 @@ class Planning:
         """
         jobs = range(len(self._request.jobs))
         model = self._converter.model(jobs, self._preparing)
-        if start:
-            self._require_start(model, start)
-        servable = model.servable()
-        if not servable:
-            return self._judged({})
-        best = self._best_of_few(servable, deadline)
+        best = self._best_of_few(jobs, deadline)
         if best is not None:
             return best
+        servable = model.servable()
+        if not servable:
+            return self._judged(start)
         price = self._price(model)
         if len(servable) < len(model.nodes.jobs) and self._left(deadline) > SPARE * price:
             model = self._converter.model(servable)
@@ -127,14 +117,11 @@ class Planning:
         if not is_few(len(jobs), len(self.kinds), breaks):
             return None
         until = max(deadline, time.perf_counter() + FEW_SECONDS)
-        routes = best_routes(self._request, self._places, self.kinds, jobs, self._vehicles(jobs),
+        vehicles = [number for number, kind in enumerate(self.kinds)
+                    for _ in kind.vehicles[:len(jobs)]]
+        routes = best_routes(self._request, self._places, self.kinds, jobs, vehicles,
                              lambda: self._left(until) <= 0)
-        return None if routes is None else self._accepted(routes, until)
-
-    def _vehicles(self, jobs: Sequence[int]) -> list[int]:
-        """Return the kinds of all vehicles, none more often than there are jobs."""
-        return [number for number, kind in enumerate(self.kinds)
-                for _ in kind.vehicles[:len(jobs)]]
+        return None if routes is None else self._judged(routes)
 
     def _left(self, deadline: float) -> float:
         """Return the seconds left, none once nobody waits for more."""
@@ -143,61 +130,27 @@ class Planning:
     def _price(self, model: Model) -> float:
         """Return about how long it takes to build a model again and to plan it, without search."""
         nodes, each = model.problem.num_nodes, len(model.problem.travel)
-        return ((1 + len(model.relaxed)) * model_seconds(nodes, each)
-                + attempt_seconds(nodes, each))
-
-    def _require_start(self, model: Model, start: Routes) -> None:
-        """Refuse routes to start from that break a rule as the planner sees them."""
-        loosest = replace(model, problem=model.relaxed[0]) if model.relaxed else model
-        if check(loosest.problem, loosest.solution(start)).violations:
-            raise RefusedError("The routes in steps can't be started from here: jobs with "
-                               "setup and time_windows share a place.")
+        return model_seconds(nodes, each) + attempt_seconds(nodes, each)
 
     def _improve(self, model: Model, seconds: float, start: Routes) -> VroomPlan:
-        """Plan a problem, after relaxed ones if there are any; return no worse than `start`."""
-        deadline = time.perf_counter() + seconds
-        best = self._judged(start)
-        for relaxed in model.relaxed:
-            best = self._attempt(model, relaxed, RELAXED * seconds, best)
-        return self._attempt(model, model.problem, self._left(deadline), best)
-
-    def _attempt(self, model: Model, problem: Problem, seconds: float,
-                 best: VroomPlan) -> VroomPlan:
-        """Plan a problem of a model once, if there is time or no plan yet.
-
-        Returns
-        -------
-        The best plan met that keeps all rules, `best` among them.
-        """
-        def meet(progress: Progress) -> None:
-            # Of a relaxed plan's forerunners one may keep the rules that it breaks itself.
-            nonlocal best
-            if model.relaxed:
-                found = self._sound(model.routes(progress.plan()))
-                best = max(best, found, key=attrgetter("value"))
-
-        price = _price_of(problem)
-        if self._has_tried and seconds < price:
+        """Plan a problem, if there is time or no plan yet; return no worse than `start`."""
+        deadline, best = time.perf_counter() + seconds, self._judged(start)
+        if self._has_tried and seconds < _price_of(model.problem):
             return best
-        self._has_tried |= bool(best.served) or problem is model.problem
-        until = time.perf_counter() + seconds
-        searched = until - MENDING * seconds if model.is_loose else until
-        given = self._given(replace(model, problem=problem), best.routes)
-        options = replace(self._options, time_limit=max(LEAST_SECONDS, self._left(searched)))
-        routes = model.routes(self._plan(problem, options, given, meet).solution)
-        found = self._mended(routes, until) if model.is_loose else self._accepted(routes, until)
+        self._has_tried = True
+        given = self._given(model, start)
+        options = replace(self._options, time_limit=max(LEAST_SECONDS, self._left(deadline)))
+        found = self._sound(model.routes(self._plan(model.problem, options, given).solution))
         return max(best, found, key=attrgetter("value"))
 
     def _given(self, model: Model, start: Routes) -> Solution:
         """Return routes as a plan for a model; nothing, if they break its rules.
 
-        With nothing the search begins by insertion, not by the policy.
+        What keeps VROOM's may break those of a stricter problem. With nothing the search begins by
+        insertion, not by the policy.
         """
         given = model.solution(start)
-        # What keeps the true rules may break those of a stricter problem.
-        if model.is_loose and check(model.problem, given).violations:
-            return model.solution({})
-        return given
+        return model.solution({}) if check(model.problem, given).violations else given
 
     def _judged(self, routes: Routes) -> VroomPlan:
         """Return routes with their value.
@@ -219,29 +172,18 @@ class Planning:
                          (sum(self._priorities[job] for job in served), len(served),
                           -sum(cost for cost in costs if cost is not None)))
 
-    def _accepted(self, routes: Routes, until: float) -> VroomPlan:
-        """Return routes that keep all rules, as all should; counts where they don't. In place."""
-        if len(self._sound(routes).served) < _num_served(routes):
-            self.refused += 1
-            logger.error("plan refused: a route breaks a rule of VROOM's")
-        return self._mended(routes, until)
-
     def _sound(self, routes: Routes) -> VroomPlan:
-        """Return those routes that keep all rules, with their value."""
+        """Return those routes that keep all rules, as all should, with their value; counts where
+        they don't. In place.
+        """
         sound = {kind: [jobs for jobs in its_routes
                         if self._route_cost(kind, tuple(jobs)) is not None]
                  for kind, its_routes in routes.items()}
-        return self._judged({kind: its_routes for kind, its_routes in sound.items() if its_routes})
-
-    def _mended(self, routes: Routes, until: float) -> VroomPlan:
-        """Return routes without rules that are broken, with their value."""
-        sound = self._sound(routes)
-        if len(sound.served) == _num_served(routes):
-            return sound
-        units = sorted(units_of(self._request.jobs),
-                       key=lambda unit: -self._priorities[unit[0]])
-        counts = [len(kind.vehicles) for kind in self.kinds]
-        return self._judged(Mending(units, counts, self._route_cost, until).mended(routes))
+        plan = self._judged({kind: its_routes for kind, its_routes in sound.items() if its_routes})
+        if len(plan.served) < sum(len(jobs) for its in routes.values() for jobs in its):
+            self.refused += 1
+            logger.error("plan refused: a route breaks a rule of VROOM's")
+        return plan
 
     def _route_cost(self, kind: int, jobs: tuple[int, ...]) -> int | None:
         """Return the cost of a route, None if it breaks a rule; each is looked at once."""
@@ -252,10 +194,6 @@ class Planning:
             self._costs[key] = (None if any(faults)
                                 else drive(self._request, self._places, vehicle, jobs).cost)
         return self._costs[key]
-
-
-def _num_served(routes: Routes) -> int:
-    return sum(len(jobs) for its_routes in routes.values() for jobs in its_routes)
 
 
 def _price_of(problem: Problem) -> float:

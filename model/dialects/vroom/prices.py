@@ -7,7 +7,7 @@ from math import gcd
 import numpy as np
 
 from model.dialects.vroom.models import Model
-from model.problem import MM_PER_KM, MS_PER_HOUR, FloatArray, IntArray, Problem
+from model.problem import MM_PER_KM, FloatArray, IntArray, Problem
 
 WEIGHT = 20
 """A step of priority weighs as much as so many jobs at most."""
@@ -22,9 +22,7 @@ def leave_out_by_priority(model: Model, priorities: Sequence[int]) -> Model:
         (request's job,).
     """
     stated = np.array([priorities[job] for job in model.nodes.jobs], np.int64)
-    return replace(model, problem=_with_dropping_costs(model.problem, stated),
-                   relaxed=tuple(_with_dropping_costs(relaxed, stated)
-                                 for relaxed in model.relaxed))
+    return replace(model, problem=_with_dropping_costs(model.problem, stated))
 
 
 def _with_dropping_costs(problem: Problem, priorities: IntArray) -> Problem:
@@ -49,8 +47,6 @@ def _dearest_trip(problem: Problem) -> float:
         travel, first = problem.travel[kind.travel], problem.num_depots
         start, end = kind.begins_at, kind.ends_at
         away = travel.distance[start, first:] + travel.distance[first:, end]
-        time = travel.duration[start, first:] + travel.duration[first:, end]
-        cost = (away / MM_PER_KM * kind.cost_per_km
-                + time / MS_PER_HOUR * kind.cost_per_hour + kind.fixed_cost)
+        cost = away / MM_PER_KM * kind.cost_per_km + kind.fixed_cost
         dearest = max(dearest, float(cost.max()))
     return dearest

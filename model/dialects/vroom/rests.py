@@ -12,7 +12,7 @@ from collections.abc import Sequence
 from itertools import pairwise
 
 from model.dialects.vroom.kinds import VehicleKind
-from model.dialects.vroom.request import Window
+from model.dialects.vroom.request import VroomBreak, Window
 from model.dialects.vroom.windows import ENDLESS
 from model.problem import MAX_BREAKS
 
@@ -26,37 +26,36 @@ MostAboard = tuple[int, ...] | None
 class Rests:
     """The breaks of all kinds of vehicles.
 
-    The planner's break has one window. Of several the longest is taken, or, relaxed, all and what
-    is between. Of breaks that are taken as one, relaxed, the longest stands for all.
+    The planner's break has one window: of several the longest, or the one that can be met first
+    where those leave no time.
     """
 
     def __init__(self, kinds: Sequence[VehicleKind], is_timed: bool) -> None:
         """Cut windows; where nothing `is_timed` breaks bind nobody."""
-        self._strict = [_cut(kind, relaxed=False) if is_timed else () for kind in kinds]
-        self._loose = [_cut(kind, relaxed=True) if is_timed else () for kind in kinds]
+        self._cut = [_cut(kind) if is_timed else () for kind in kinds]
         self._most = [[each.max_load for each in kind.stated.breaks] for kind in kinds]
-        self._groups = [_groups(breaks) for breaks in self._strict]
-        are_few = all(len(breaks) <= MAX_BREAKS for breaks in self._strict)
-        self.differ = not are_few or self._strict != self._loose
-        """Whether relaxed breaks are others."""
-        self.are_exact = not is_timed or (are_few and not any(
-            each.max_load is not None for kind in kinds for each in kind.stated.breaks))
-        """Whether whoever takes these breaks takes VROOM's."""
+        self._groups = [_groups(breaks) for breaks in self._cut]
 
     def begins(self) -> list[int]:
         """Return the seconds in which breaks may start first."""
-        return [begin for breaks in (*self._strict, *self._loose) for _, (begin, _) in breaks]
+        return [begin for breaks in self._cut for _, (begin, _) in breaks]
 
-    def of(self, kind: int, relaxed: bool) -> Sequence[tuple[CutBreak, MostAboard]]:
+    def of(self, kind: int) -> Sequence[tuple[CutBreak, MostAboard]]:
         """Return the breaks of a kind, none if they can't be taken."""
-        breaks = (self._loose if relaxed else self._strict)[kind]
-        if not _fit(breaks):
-            return ()
-        groups = self._groups[kind]
-        if relaxed:
-            groups = [[max(group, key=breaks.__getitem__)] for group in groups]
+        breaks, most = self._cut[kind], self._most[kind]
         return [(_as_one([breaks[number] for number in group]),
-                 _least_of([self._most[kind][number] for number in group])) for group in groups]
+                 _least_of([most[number] for number in group]))
+                for group in self._groups[kind]] if self.can_be_taken(kind) else []
+
+    def latest_begin(self, kind: int) -> int | None:
+        """Return when the last of a kind's breaks begins at the latest, where loads limit breaks.
+
+        None if it may begin at any time. Whoever is about from the beginning of the planner's time
+        until then has all breaks on the way.
+        """
+        breaks = self._cut[kind]
+        last = breaks[-1][1][1] if breaks and any(self._most[kind]) else ENDLESS
+        return last if last < ENDLESS // 2 else None
 
     def number_of(self, kind: int, number: int) -> int:
         """Return which of a kind's breaks, as the planner has them, stands for one stated."""
@@ -64,7 +63,7 @@ class Rests:
 
     def can_be_taken(self, kind: int) -> bool:
         """Tell whether there is time for all breaks of a kind."""
-        return _fit(self._loose[kind])
+        return _fit(self._cut[kind])
 
 
 def _fit(breaks: Sequence[CutBreak]) -> bool:
@@ -104,10 +103,22 @@ def _least_of(limits: Sequence[MostAboard]) -> MostAboard:
     return tuple(map(min, zip(*stated, strict=True))) if stated else None
 
 
-def _cut(kind: VehicleKind, relaxed: bool) -> Sequence[CutBreak]:
-    shift = kind.stated.time_window or (0, ENDLESS)
-    breaks = kind.stated.breaks
-    windows = [_window(each.time_windows, shift, relaxed) for each in breaks]
+def _cut(kind: VehicleKind) -> Sequence[CutBreak]:
+    shift, breaks = kind.stated.time_window or (0, ENDLESS), kind.stated.breaks
+    longest = _within(shift, breaks, [_longest(each.time_windows, shift) for each in breaks])
+    if _fit(longest):
+        return longest
+    time, first = shift[0], list[Window]()
+    for each in breaks:
+        windows = each.time_windows or [(0, ENDLESS)]
+        first.append(next((window for window in windows if time <= window[1]), windows[-1]))
+        time = max(time, first[-1][0]) + each.service
+    return _within(shift, breaks, first)
+
+
+def _within(shift: Window, breaks: Sequence[VroomBreak],
+            windows: Sequence[Window]) -> Sequence[CutBreak]:
+    """Return breaks with one window each, cut to what shift and other breaks leave of it."""
     begins, time = [], shift[0]
     for each, (begin, _) in zip(breaks, windows, strict=True):
         begins.append(max(time, begin))
@@ -120,10 +131,7 @@ def _cut(kind: VehicleKind, relaxed: bool) -> Sequence[CutBreak]:
             in zip(breaks, zip(begins, ends[::-1], strict=True), strict=True)]
 
 
-def _window(stated: Sequence[Window] | None, shift: Window, relaxed: bool) -> Window:
-    """Return the one window that stands for those stated."""
-    if stated is None:
-        return 0, ENDLESS
-    if relaxed:
-        return stated[0][0], stated[-1][1]
-    return max(stated, key=lambda window: min(window[1], shift[1]) - max(window[0], shift[0]))
+def _longest(stated: Sequence[Window] | None, shift: Window) -> Window:
+    """Return the longest of some windows within a shift."""
+    return (0, ENDLESS) if stated is None else max(
+        stated, key=lambda window: min(window[1], shift[1]) - max(window[0], shift[0]))

@@ -84,3 +84,13 @@ def test_interruptions_are_no_rest_from_work() -> None:
 def test_nobody_drives_for_longer_in_a_day_by_interruptions() -> None:
     rules = replace(INTERRUPTED, max_driving_per_day=19 * MINUTE)
     assert broken(street(rules, Customer("a", (1,), service_duration=10 * MINUTE))) == {"DRIVING"}
+
+
+def test_how_far_a_truck_goes_by_other_legs_than_it_drives_may_be_limited() -> None:
+    plain = street(DrivingRules(UNLIMITED, 0), Customer("a", (1,)), Customer("b", (1,)))
+    legs = np.arange(9).reshape(3, 3)
+    far = int(legs[0, 1] + legs[1, 2] + legs[2, 0])
+    for most, found in ((far, set[str]()), (far - 1, {"DISTANCE"})):
+        van = replace(plain.vehicle_types[0], driving=None, limited=1, max_distance=most)
+        assert broken(replace(plain, vehicle_types=(van,),
+                              travel=(*plain.travel, Travel(legs, legs)))) == found

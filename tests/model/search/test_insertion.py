@@ -21,6 +21,7 @@ from model.search.route.layout import ProblemData
 from model.search.problem_data import make_data
 from model.solution import Route, Solution
 from tests.model.search.found import read_plan
+from tests.model.tiny_legs import with_other_legs
 from tests.seeds import seeds
 
 pytestmark = pytest.mark.slow
@@ -155,7 +156,8 @@ def without(plan: Solution, problem: Problem, node: int) -> Solution:
 
 @pytest.mark.parametrize("problem", [
     *(problem_with_trips(seed) for seed in seeds(12)),
-    *(problem_by_time(seed) for seed in seeds(12))])
+    *(problem_by_time(seed) for seed in seeds(12)),
+    *(with_other_legs(np.random.default_rng(seed), problem_by_time(seed)) for seed in seeds(12))])
 def test_a_customer_goes_where_that_costs_least(problem: Problem) -> None:
     nobody = Solution((), tuple(range(1, CUSTOMERS + 1)))
     plan = improve(problem, pack([problem]), nobody, SearchConfig(turns=20)).solution
@@ -171,6 +173,8 @@ def test_a_customer_goes_where_that_costs_least(problem: Problem) -> None:
 @pytest.mark.parametrize("seed", seeds(12))
 def test_a_shipment_goes_where_that_costs_least(seed: int) -> None:
     problem = problem_of_shipments(seed)
+    if seed % 6 == 5:
+        problem = with_other_legs(np.random.default_rng(seed), problem)
     nobody = Solution((), tuple(range(1, 2 * SHIPMENTS + 1)))
     plan = improve(problem, pack([problem]), nobody, SearchConfig(turns=20)).solution
     data = make_data(problem, pack([problem]))

@@ -24,14 +24,14 @@ from tests.model.permits import (
 )
 from tests.model.tiny import (
     draw_tiny, with_beginnings, with_charging, with_dimensions, with_drone_types, with_drones,
-    with_duty,
-    with_energy, with_gaps, with_goods, with_limits_aboard, with_open_ends, with_open_reloads,
-    with_own_costs, with_own_durations, with_pickups, with_places, with_reloads, with_setups,
-    with_table, with_turnaround,
+    with_duty, with_energy, with_gaps, with_goods, with_limits_aboard, with_open_ends,
+    with_open_reloads, with_own_costs, with_own_durations, with_pickups, with_places, with_reloads,
+    with_setups, with_table, with_turnaround,
 )
 from tests.model.tiny_choices import with_choices
 from tests.model.tiny_company import companions, with_order, with_relations
 from tests.model.tiny_hours import with_closing_hubs, with_hours, with_hours_apart
+from tests.model.tiny_legs import with_other_legs
 from tests.model.tiny_launches import with_few_launch_places, with_launch_sites
 from tests.model.tiny_prices import with_vehicle_costs
 from tests.model.tiny_shipments import with_shipments
@@ -185,8 +185,8 @@ def fliers_among_all(rng: np.random.Generator, problem: Problem) -> Problem:
 @pytest.mark.parametrize("change", [
     with_table, with_places, with_beginnings, with_gaps, with_energy, with_open_ends, with_reloads,
     with_open_reloads, with_duty, with_own_durations, with_goods, with_setups, with_limits_aboard,
-    with_turnaround, swapping_among_all, charging_often, charging_among_all, with_drone_types,
-    charging_drone_types, drone_types_among_all, with_ranges, ranges_among_all,
+    with_other_legs, with_turnaround, swapping_among_all, charging_often, charging_among_all,
+    with_drone_types, charging_drone_types, drone_types_among_all, with_ranges, ranges_among_all,
     with_few_airborne, few_airborne_among_all, with_few_launch_places,
     few_launch_places_among_all, with_fliers, fliers_among_all, from_few_batteries,
     few_at_hubs_among_all, with_storms, with_closings, fliers_in_closed_zones, storms_among_all,

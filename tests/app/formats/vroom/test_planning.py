@@ -110,8 +110,11 @@ def test_limits_are_kept_to_the_unit(ours: Solve, street: Data, limit: Data, ext
 
 
 @pytest.mark.parametrize("seed", seeds(20))
-def test_few_jobs_with_windows_and_a_limit_are_planned_at_least_cost(ours: Solve,
-                                                                     seed: int) -> None:
+@pytest.mark.parametrize("by_search", [False, True])
+def test_few_jobs_with_windows_and_a_limit_are_planned_at_least_cost(
+        monkeypatch: pytest.MonkeyPatch, ours: Solve, by_search: bool, seed: int) -> None:
+    if by_search:
+        monkeypatch.setattr("model.dialects.vroom.planning.is_few", lambda *_: False)
     request = drawn_request(random.Random(seed), 4, binds=seed % 2 == 1)
     reply = ours(request)
     judge(request, reply)
