@@ -9,6 +9,7 @@ from pydantic_core import to_json
 from app.formats.sheets.amounts import dimensions
 from app.formats.sheets.cells import CellError, Doubt, MisreadError
 from app.formats.sheets.columns import Column
+from app.formats.sheets.crews import with_crews
 from app.formats.sheets.customers import Entry, placed
 from app.formats.sheets.fleet import Incomplete, fleet_of
 from app.formats.sheets.geography import Pair, TableGeography, depot_pair, on_globe
@@ -57,7 +58,7 @@ def request_of(work: Import, depots: Sequence[Row], ground: TableGeography,
     fairness = (work.fairness if settings.fairness is None
                 else settings.fairness.model_dump(exclude_defaults=True))
     fleet, assumed = fleet_of(served, columns, settings, work.vans, fairness.get("min_vehicles", 1))
-    assumed += price_others(served, fleet, work.vans)
+    assumed += with_crews(served, work.vans) + price_others(served, fleet, work.vans)
     unit: Data = {}
     if not ground.is_geographic:
         in_km = any(column.meaning == "x" and column.unit == "km" for column in columns)

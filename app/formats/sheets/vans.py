@@ -26,6 +26,7 @@ KINDS: dict[str, Kind] = {
     "max_work": "duration", "max_travel": "duration", "driving_rules": "text",
     "max_driving": "duration", "max_work_before_break": "duration",
     "max_driving_per_day": "duration", "rest": "duration", "rest_split": "text",
+    "crew": "text",
     "driven_before": "duration", "worked_before": "duration", "lifo": "text"}
 """What is read; of drones nothing is made, though a number of them is none of vehicles."""
 
@@ -79,7 +80,7 @@ def lists_vans(sheet: Sheet) -> bool:
     heads = {simple(heading) for heading in table.headings}
     is_customers = heads & {"lat", "latitude", "breite", "adresse", "address", "kunde", "customer",
                             "client", "adresse de livraison", "plz", "postcode", "strasse"}
-    return bool({"name", "driver"} & meant and meant & {"capacity", "window", "earliest"}
+    return bool({"name", "driver", "crew"} & meant and meant & {"capacity", "window", "earliest"}
                 and not is_customers)
 
 
@@ -158,6 +159,9 @@ def _columns(table: Table) -> dict[int, str]:
             meaning = "break_duration"
         if meaning in KINDS and (meaning in REPEATED or meaning not in meant.values()):
             meant[column] = meaning
+    if not {"name", "driver"} & set(meant.values()):  # crews are the vehicles' names
+        return {column: "name" if meaning == "crew" else meaning
+                for column, meaning in meant.items()}
     return meant
 
 
