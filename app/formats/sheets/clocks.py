@@ -1,6 +1,7 @@
 """Times of day, windows and lengths of time, as people and programs write them."""
 
 import re
+from contextlib import suppress
 from dataclasses import dataclass
 from datetime import date, datetime, time, timedelta
 
@@ -35,6 +36,7 @@ _BARE_HOUR, _BARE_HHMM = re.compile(r"\d{1,2}"), re.compile(r"\d{3,4}")
 _BARE_POINT, _BARE_MINUTES = re.compile(r"\d{1,2}[.,]\d{2}"), re.compile(r"\d{1,2}[.,][0-5]\d")
 _DATE = re.compile(r"(?P<date>\d{4}[-/.]\d{1,2}[-/.]\d{1,2}|\d{1,2}([./-])\d{1,2}\2\d{2,4})"
                    r"[T,.\s]*+(?P<rest>.*+)")
+_NO_YEAR = re.compile(r"(\d{1,2})([./-])(\d{1,2})\2?")
 _DATES = re.compile(r"\d{4}-\d{1,2}-\d{1,2}|\d{1,2}([./-])\d{1,2}\1\d{2,4}")
 _WEEKDAY = re.compile(r"^[^\W\d_]{2,10}[.,]{0,2}\s(?=\d{1,4}[-./]\d{1,2}[-./]\d)")
 _BETWEEN_BEHIND = re.compile(
@@ -228,10 +230,13 @@ def read_date(raw: Raw, style: Style) -> date:
             is_day_first = style.day_first or "." in found["date"]
             day, month = (first, second) if is_day_first else (second, first)
             parts = [year + 2000 if year < 100 else year, month, day]
-        try:
+        with suppress(ValueError):
             return date(*parts)
-        except ValueError:
-            pass
+    if style.day and isinstance(raw, str) and (found := _NO_YEAR.fullmatch(raw)):
+        first, second = int(found[1]), int(found[3])
+        month, day = (second, first) if style.day_first or found[2] == "." else (first, second)
+        with suppress(ValueError):
+            return date(style.day.year, month, day)
     raise MisreadError(f"{shown(raw)!r} is no date: write one such as 2026-11-23")
 
 

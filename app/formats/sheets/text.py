@@ -40,6 +40,8 @@ LONGEST_CELL = 100_000
 MAX_CELLS = 2_000_000
 
 _SIGNS = re.compile(r"[;\t,|]")
+_MISFITS = re.compile(r"(?<=[^\W\d_])[^\x00-\x7f\w\s\u2019](?=[^\W\d_])|(?<=[a-z])[\u00c0-\u00de]")
+"""Signs within words, and capitals behind small letters: what wrong encodings make of accents."""
 
 
 @dataclass(frozen=True)
@@ -132,7 +134,7 @@ def _sense_in(head: bytes, encoding: str) -> tuple[int, float]:
     usual = {sign for language, count in spoken.items() if count == most
              for sign in LETTERS[language][0]}
     others = [sign for sign in text.lower() if sign >= "\x80" and sign not in USUAL_SIGNS]
-    strange = sum(sign not in usual for sign in others)
+    strange = sum(sign not in usual for sign in others) + len(_MISFITS.findall(text))
     return len(known), strange / max(len(others), 1) if usual else 0.0
 
 

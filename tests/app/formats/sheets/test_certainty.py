@@ -105,7 +105,7 @@ def test_crews_that_some_orders_name_alone_are_told() -> None:
 
 @pytest.mark.parametrize(("encoding", "name"), [
     ("cp1250", "Őrség Patika"), ("iso8859_2", "Świat Książki"), ("cp1254", "Doğan Şehir"),
-    ("mac_roman", "Löwe Größ"), ("cp1252", "Löwe Größ")])
+    ("mac_roman", "Löwe Größ"), ("cp1252", "Löwe Größ"), ("cp1252", "Açaí Irmãos União")])
 def test_letters_are_told_by_those_of_the_headings_language(encoding: str, name: str) -> None:
     head = {"cp1250": "Partner;Raklap", "iso8859_2": "Odbiorca;Waga", "cp1254": "Firma;Koli"}.get(
         encoding, "Kunde;Menge")
@@ -127,3 +127,12 @@ def test_the_first_rows_are_told_as_they_are_and_as_they_were_read() -> None:
     assert told["XQ"].cells[0] is None
     assert told["XQ"].likely[-2:] == ["info", "ignored"]
     assert "demand" in told["XQ"].likely
+
+
+def test_dates_without_a_year_are_of_the_year_of_the_day_that_is_planned() -> None:
+    content = b"Name;Lat;Lon;Datum\nA;48,1;11,5;23.11.\nB;48,2;11,6;24.11.\n"
+    reply = import_file(content, ImportSettings(day="2026-11-23"))
+    assert certainty(reply, "Datum") == ("date", "sure")
+    assert reply.request is not None
+    assert [customer["id"] for customer in reply.request["customers"]] == ["A"]
+    assert certainty(import_file(content, ImportSettings()), "Datum") == ("ignored", "open")
