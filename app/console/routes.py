@@ -20,6 +20,7 @@ from starlette.types import Scope
 from app.console.bundle import BUNDLE, ENTRY, bundled
 from app.maps.streets.routes import ATTRIBUTION
 from app.maps.streets.sea import Box
+from app.serving.access.setup import PUBLIC_TILES
 from app.serving.texts import Text
 
 STATIC_DIR = Path(__file__).parent / "static"
@@ -34,6 +35,13 @@ class StreetsConfig(BaseModel):
     bounds: Box
 
 
+class TilesConfig(BaseModel):
+    """Tiles of a server."""
+
+    url: str
+    attribution: str
+
+
 class ConsoleConfig(BaseModel):
     """What the console needs to know of the service's settings."""
 
@@ -42,6 +50,8 @@ class ConsoleConfig(BaseModel):
     tile_attribution: str
     streets: tuple[StreetsConfig, ...]
     streets_attribution: str
+    ground: StreetsConfig  # what is drawn below them, and where there are none
+    public_tiles: TilesConfig  # of somebody else's server, for who asks for them
     finds_addresses: bool
     max_job_seconds: float
 
@@ -107,10 +117,13 @@ def page() -> HTMLResponse:
 async def config(request: Request) -> ConsoleConfig:
     """Return the settings that the console follows."""
     settings = request.app.state.settings
+    ground = request.app.state.gallery.ground
     return ConsoleConfig(policies=settings.policies, tile_url=settings.tile_url,
                          tile_attribution=settings.tile_attribution,
                          streets=tuple(StreetsConfig(name=streets.name, bounds=streets.bounds)
                                        for streets in request.app.state.gallery.ready),
                          streets_attribution=ATTRIBUTION,
+                         ground=StreetsConfig(name=ground.name, bounds=ground.bounds),
+                         public_tiles=TilesConfig(url=PUBLIC_TILES, attribution=ATTRIBUTION),
                          finds_addresses=bool(request.app.state.addresses.names),
                          max_job_seconds=settings.max_job_seconds)

@@ -65,9 +65,9 @@ def named_pieces(named: Mapping[str, NamedLines]) -> Iterator[tuple[StreetKind, 
                 step = 1 / (EXTENT << zoom)
                 simple = shapely.simplify(lines, COARSE * step)
                 long = np.flatnonzero(shapely.length(simple) >= LEAST_NAMED * step)
-                for x, y, shapes, which in _quartered(simple[long], long, zoom, (0, 0), 0):
+                for x, y, shapes, which in quartered(simple[long], long, zoom, (0, 0), 0):
                     for shape, name in zip(shapes, which.tolist(), strict=True):
-                        if ways := _lines(np.array([shape]), False, (x, y), zoom):
+                        if ways := steps_of(np.array([shape]), False, (x, y), zoom):
                             yield kind, names[name], TilePiece(zoom, x, y, ways)
 
 
@@ -79,12 +79,12 @@ def _cut(shapes: Shapes, kind: StreetKind, zoom: int) -> Iterator[TilePiece]:
                               preserve_topology=kind.is_area)
     if kind.is_area and not is_last:
         simple = simple[shapely.area(simple) >= SMALLEST_AREA * step**2]
-    for x, y, within, _ in _quartered(simple, np.arange(len(simple)), zoom, (0, 0), 0):
-        if lines := _lines(within, kind.is_area, (x, y), zoom):
+    for x, y, within, _ in quartered(simple, np.arange(len(simple)), zoom, (0, 0), 0):
+        if lines := steps_of(within, kind.is_area, (x, y), zoom):
             yield TilePiece(zoom, x, y, lines)
 
 
-def _quartered(shapes: Shapes, which: IntArray, zoom: int, tile: tuple[int, int],
+def quartered(shapes: Shapes, which: IntArray, zoom: int, tile: tuple[int, int],
                depth: int) -> Iterator[tuple[int, int, Shapes, IntArray]]:
     """Yield what the tiles of a zoom within a larger one hold, and which shapes that is of.
 
@@ -97,7 +97,7 @@ def _quartered(shapes: Shapes, which: IntArray, zoom: int, tile: tuple[int, int]
     if depth < zoom and len(shapes):
         for quarter in ((2 * x, 2 * y), (2 * x + 1, 2 * y), (2 * x, 2 * y + 1),
                         (2 * x + 1, 2 * y + 1)):
-            yield from _quartered(shapes, which, zoom, quarter, depth + 1)
+            yield from quartered(shapes, which, zoom, quarter, depth + 1)
     elif len(shapes):
         yield x, y, shapes, which
 
@@ -113,7 +113,7 @@ def _clipped(shapes: Shapes, which: IntArray, frame: FloatArray) -> tuple[Shapes
     return shapes[there], which[there]
 
 
-def _lines(shapes: Shapes, are_areas: bool, tile: tuple[int, int], zoom: int) -> list[list[int]]:
+def steps_of(shapes: Shapes, are_areas: bool, tile: tuple[int, int], zoom: int) -> list[list[int]]:
     parts = shapely.get_parts(shapes)
     wanted = shapely.GeometryType.POLYGON if are_areas else shapely.GeometryType.LINESTRING
     parts = parts[shapely.get_type_id(parts) == wanted]

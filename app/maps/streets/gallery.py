@@ -9,8 +9,11 @@ from pathlib import Path
 
 from app.maps.streets.filing import folder_beside
 from app.maps.streets.reading import StreetsError
-from app.maps.streets.store import Streets, build_streets
+from app.maps.streets.store import SUFFIX, Streets, build_streets
 from app.serving.load.with_parent import end_with
+
+GROUND = Path(__file__).with_name(f"ground{SUFFIX}")
+"""Coasts, water, borders and large cities of the world, which `.ci/ground.py` makes."""
 
 logger = logging.getLogger(__name__)
 
@@ -29,6 +32,7 @@ class Gallery:
     def __init__(self, extracts: Iterable[Path], spare: Path) -> None:
         self._extracts = list(dict.fromkeys(extracts))
         self._spare = spare
+        self.ground = Streets.opened(GROUND)
         self._ready: dict[str, Streets] = {}
         self._executor: ProcessPoolExecutor | None = None
         self._making: list[Future[Streets]] = []
@@ -62,7 +66,7 @@ class Gallery:
 
     def find(self, name: str) -> Streets | None:
         """Return the streets of this name, if they can be drawn."""
-        return self._ready.get(name)
+        return self.ground if name == self.ground.name else self._ready.get(name)
 
     def _take(self, future: "Future[Streets]") -> None:
         if future.cancelled():

@@ -19,6 +19,9 @@ from app.serving.settings import Settings
 METHODS = ("GET", "POST", "PUT", "PATCH", "DELETE")
 REQUEST_HEADERS = ("Authorization", "Content-Type", "Idempotency-Key", "If-Match", "If-None-Match",
                    "Last-Event-ID", "X-API-Key", "X-Request-ID", "X-Share-Token")
+PUBLIC_TILES = "https://tile.openstreetmap.org/{z}/{x}/{y}.png"
+"""Where the console gets streets from if who uses it asks for that; by itself it never does."""
+
 REPLY_HEADERS = ("ETag", "Location", "RateLimit-Limit", "RateLimit-Remaining",
                  "RateLimit-Reset", "Retry-After", "X-Request-ID")
 
@@ -69,6 +72,5 @@ def control_access(app: FastAPI, settings: Settings) -> None:
             CORSMiddleware, allow_origins=settings.cors_origins,
             allow_methods=METHODS, allow_headers=REQUEST_HEADERS,
             expose_headers=REPLY_HEADERS)
-    tiles = urlsplit(settings.tile_url or "")
-    app.add_middleware(SecurityHeaders,
-                       image_origin=f"{tiles.scheme}://{tiles.netloc}" if tiles.netloc else "")
+    tiles = urlsplit(settings.tile_url or PUBLIC_TILES)
+    app.add_middleware(SecurityHeaders, image_origin=f"{tiles.scheme}://{tiles.netloc}")
