@@ -170,16 +170,14 @@ class VehicleTypeInput(Input):
         "are flights, and whom they serve is served by drone.",
     )
     depot: Name | None = Field(
-        None, description="Depot where trips begin and end. Null: the first depot."
-    )
+        None, description="Depot where trips begin and end. Null: the first depot.")
     start_location: PlaceLocation | None = Field(
         None,
         description="Where the vehicles begin, loaded, in the coordinates of `location`; further "
         "trips begin at the depot. Null: at the depot.",
     )
     start_location_index: LocationIndex | None = Field(
-        None, description="Row and column of that place in `matrices`. Needed with them."
-    )
+        None, description="Row and column of that place in `matrices`. Needed with them.")
     end: End = Field(
         "depot",
         description="Where the last trip ends: `depot`, `open` (at its last stop, drones aboard), "
@@ -191,10 +189,10 @@ class VehicleTypeInput(Input):
         "it is between two trips is the plan's choice.",
     )
     count: int = Field(ge=1, le=MAX_VEHICLES, description="Vehicles of this type.")
+    names: Annotated[list[Name], Field(max_length=MAX_VEHICLES)] = Field(
+        [], description="What people call its vehicles, in order, at most `count`: ids stay.")
     capacity: Demand = Field(
-        description="Largest load at any point of a trip, per dimension, drones' parcels "
-        "included."
-    )
+        description="Largest load at any point of a trip, drones' included, per dimension.")
     pickups: Literal["any", "last"] = Field(
         "any",
         description="When a trip picks up: at any time, or only `last`, after all its deliveries, "
@@ -333,6 +331,12 @@ class VehicleTypeInput(Input):
         None,
         description="CO2 of its drones' energy per kWh, for `summary.co2_kg` alone, in kg.",
     )
+
+    @model_validator(mode="after")
+    def _name_no_more_than_there_are(self) -> Self:
+        if len(self.names) > self.count:
+            raise ValueError(f"{len(self.names)} names for {self.count} vehicles")
+        return self
 
     @model_validator(mode="after")
     def _keep_rules(self) -> Self:
