@@ -107,7 +107,7 @@ def plan(watch: Stopwatch, page: Page) -> None:
 def print_sheets(watch: Stopwatch, page: Page, folder: Path) -> None:
     """Print the sheets of all drivers, to a PDF."""
     watch.pause("find a button")
-    page.locator("#tab-export").click()
+    page.locator("#room-export").click()
     # A print dialog would wait for a person.
     page.evaluate("window.print = () => {}")
     watch.pause("find a button")

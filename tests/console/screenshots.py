@@ -66,7 +66,7 @@ def replanning(page: Page) -> None:
     page.get_by_role("button", name="Replan from here").click()
     page.get_by_label("drone-truck-1 is broken").check()
     page.get_by_role("button", name="Add orders on the map").click()
-    page.mouse.click(300, 480)
+    page.mouse.click(760, 480)
     page.keyboard.press("Escape")
     page.locator(".panel").get_by_role("button", name="Plan on").focus()
 

@@ -16,8 +16,14 @@ def beginning(address: str, example: str) -> str:
     return address if "#" in address else f"{address}/#example={example}"
 
 
+ROOMS = {"customers": "orders", "unassigned": "orders", "fleet": "fleet", "routes": "routes",
+         "costs": "routes", "solve": "routes", "replan": "day", "changes": "compare",
+         "scenarios": "compare", "drivers": "drivers", "export": "export"}
+"""Rooms of the desk by the tabs that are in them."""
+
+
 def stop_button(page: Page) -> Locator:
-    """Return the button that stops planning."""
+    """Return the button that stops planning, which is there while something is planned."""
     return page.locator("header.head button.stop")
 
 
@@ -25,7 +31,7 @@ SETTLED = """async (text) => {
   for (let frames = 2; frames; frames -= 1) await new Promise(requestAnimationFrame);
   const told = document.querySelector('.result-line')?.textContent.replaceAll(/\\s+/g, ' ');
   return document.getElementById('total-cost')?.checkVisibility() && told.includes(text)
-    && document.querySelector('header.head button.stop').disabled;
+    && !document.querySelector('header.head button.stop');
 }"""
 """Tells whether a plan is shown, the header tells a text of it, and nothing is being planned."""
 
@@ -44,13 +50,20 @@ def planned(page: Page, text: str) -> None:
         page.wait_for_function(SETTLED, arg=text)
     expect(page.locator(".result-line")).to_contain_text(text)
     expect(page.locator("#total-cost")).to_be_visible()
-    expect(stop_button(page)).to_be_disabled()
+    expect(stop_button(page)).to_have_count(0)
 
 
 def open_example(page: Page, name: str) -> None:
     """Open an example and wait for its plan."""
-    page.get_by_label("Open an example").select_option(name)
+    choose_example(page, name)
     planned(page, "served")
+
+
+def choose_example(page: Page, name: str) -> None:
+    """Open an example."""
+    page.locator("#open-menu-button").click()
+    page.locator(f"#example-{name}").click()
+    page.mouse.move(0, 0)  # off the map, where it would point to something
 
 
 def open_file(page: Page, name: str, content: str | bytes) -> None:
@@ -62,7 +75,20 @@ def open_file(page: Page, name: str, content: str | bytes) -> None:
 
 def open_tab(page: Page, name: str) -> None:
     """Open a tab of the panel."""
-    page.locator(f"#tab-{name}").click()
+    room = page.locator(f"#room-{ROOMS[name]}")
+    if room.get_attribute("aria-selected") != "true":
+        room.click()
+    if [*ROOMS.values()].count(ROOMS[name]) > 1:
+        page.locator(f"#tab-{name}").click()
+
+
+def show_rules(page: Page) -> None:
+    """Show the rules that few need, of all vehicle types or of who is selected."""
+    expect(page.locator("details.finder").last).to_be_visible()
+    for finder in page.locator("details.finder:visible").all():
+        if finder.get_attribute("open") is None:
+            finder.locator("> summary").click()
+        finder.get_by_role("button", name="Show all rules").click()
 
 
 def open_advanced(page: Page) -> None:
@@ -102,12 +128,17 @@ def place_of(page: Page, key: str) -> tuple[float, float]:
     """Return where on the screen the map shows a customer, found by its tip."""
     x, y = awaited(page, """async (key) => {
       const { store } = await loaded(`store.js`);
-      const { selection } = store.get();
-      store.set({ selection: key });
+      const { hover, selection } = store.get();
+      // A narrow tip is above its place at the edge of the map, too.
+      const narrow = document.createElement('style');
+      narrow.textContent = '.leaflet-tooltip { max-width: 40px; overflow: hidden; }';
+      document.head.append(narrow);
+      store.set({ hover: key, selection: null });
       await new Promise(requestAnimationFrame);
       const tip = document.querySelector('.leaflet-tooltip');
       const { left, width, top, bottom } = tip.getBoundingClientRect();
-      store.set({ selection });
+      store.set({ hover, selection });
+      narrow.remove();
       const above = tip.classList.contains('leaflet-tooltip-top');
       return [left + width / 2, above ? bottom + 12 : top - 12];
     }""", key)

@@ -37,7 +37,7 @@ def test_van_whose_drone_flies_nothing_says_why(page: Page, drones: dict[str, An
     open_file(page, "street.json", street(drones=drones))
     planned(page, "3 of 3 served")
     line = page.locator(".drones-line")
-    expect(line).to_contain_text("van-1: no drone flies.")
+    expect(line).to_contain_text("van: no drone flies.")
     expect(line).to_contain_text(why)
     open_tab(page, "routes")
     expect(page.locator(".tab .idle-drones")).to_contain_text(why)

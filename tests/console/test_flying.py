@@ -8,7 +8,9 @@ from typing import Any
 import pytest
 from playwright.sync_api import Locator, Page, expect
 
-from tests.console.steps import EXAMPLES, idle, open_file, open_tab, place_of, planned, state
+from tests.console.steps import (
+    EXAMPLES, idle, open_file, open_tab, place_of, planned, show_rules, state,
+)
 from tests.console.test_everyone import findings
 from tests.console.test_panning import Stroke, by_finger, by_mouse
 
@@ -36,9 +38,9 @@ def test_hubs_drones_and_launch_sites_are_seen(page: Page) -> None:
     assert {"quad-1", "truck-1"} == {route["vehicle"] for route in routes}
     open_tab(page, "routes")
     panel = page.locator(".panel")
-    expect(panel.locator("summary strong", has_text="quad-1 (flies)")).to_be_visible()
+    expect(panel.locator("summary strong", has_text="quad (flies)")).to_be_visible()
     expect(panel).to_contain_text(" Wh")
-    panel.get_by_role("row", name="quad-1").get_by_role("button").click()
+    panel.get_by_role("row", name="quad").get_by_role("button").first.click()
     profile = panel.locator(".height-profile")
     expect(profile).to_contain_text("landing at attic")
     trip = next(route for route in routes if route["vehicle"] == "quad-1")["trips"][0]
@@ -106,6 +108,7 @@ def test_a_launch_site_follows_mouse_or_finger_while_the_map_stays(
     planned(page, "5 of 5 served")
     page.get_by_role("button", name="Draw", exact=True).click()
     page.get_by_role("button", name="Move", exact=True).click()
+    page.get_by_role("button", name="Fit", exact=True).click()
     pier, park = (middle(page.locator(".site-mark").nth(place)) for place in (0, 1))
     stroke = way(page)
     stroke([pier, (pier[0] + 60, pier[1] + 30)])
@@ -129,6 +132,7 @@ def test_launch_sites_and_vehicles_that_fly_have_fields(page: Page) -> None:
     expect(page.locator(".site-mark")).to_have_text(["pier", "car park", "quay"])
     open_tab(page, "fleet")
     page.locator("summary", has_text="quad").click()
+    show_rules(page)
     expect(page.locator("#field-fleet-1-flies")).to_be_checked()
     for field in ("altitude", "max_range", "max_wind_kmh", "preset", "endurance"):
         expect(page.locator(f"#field-fleet-1-{field}")).to_be_visible()
@@ -155,7 +159,7 @@ def test_customer_served_by_truck_tells_why_no_drone_comes(page: Page) -> None:
     page.get_by_role("button", name="Why here?").click()
     panel = page.locator(".panel")
     expect(panel.get_by_role("heading", name="Why no drone here")).to_be_visible()
-    why = panel.locator("li", has_text="quad-1: ")
+    why = panel.locator("li", has_text="quad: ")
     expect(why).to_contain_text("exceeds 2")
     expect(why).to_contain_text("at most 3000 m are allowed")
     assert findings(page, ".panel") == []

@@ -5,12 +5,12 @@ from typing import Any
 import pytest
 from playwright.sync_api import Page, expect
 
-from tests.console.steps import open_tab, state
+from tests.console.steps import open_tab, show_rules, state
 
 pytestmark = pytest.mark.slow
 
 NUM_CUSTOMERS = 60
-ROW_PIXELS = 28
+ROW_PIXELS = 36
 
 
 def open_customers(page: Page) -> None:
@@ -70,6 +70,7 @@ def test_drones_begin_with_what_a_drone_is_assumed_to_do(console: Page) -> None:
 def test_what_vehicles_avoid_and_sides_of_streets_are_chosen(console: Page) -> None:
     open_customers(console)
     open_tab(console, "fleet")
+    show_rules(console)
     for name in ("motorways", "tolls"):
         console.locator(f"#field-fleet-0-avoid-{name}").check()
     assert state(console, "state.request.fleet.0.avoid") == ["tolls", "motorways"]
@@ -78,6 +79,7 @@ def test_what_vehicles_avoid_and_sides_of_streets_are_chosen(console: Page) -> N
     console.evaluate("async () => (await loaded(`actions.js`)).select('c:Getränkemarkt "
                      "Schmidt-Hohenfels 1')")
     open_tab(console, "customers")
+    show_rules(console)
     side = console.locator("#field-customers-0-approach")
     expect(side.locator("option")).to_have_text(["as for all", "from either side",
                                                  "on its own side"])
@@ -125,7 +127,7 @@ def test_names_do_not_overlap_on_a_small_screen(console: Page) -> None:
         assert len(names) > 10
         for name, demand in zip(names, demands, strict=True):
             assert name["right"] <= demand["left"]
-            assert name["width"] > 80
+            assert name["width"] > 100
         rows = boxes(console, "tr[data-row]")
         assert {round(row["height"]) for row in rows} == {ROW_PIXELS}
         assert console.evaluate("""() => {

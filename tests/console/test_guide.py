@@ -14,7 +14,7 @@ pytestmark = pytest.mark.slow
 def test_console_leads_to_the_guide_which_can_be_searched(
         open_page: Callable[..., Page], service: str) -> None:
     page = open_page(service)
-    page.get_by_role("link", name="Guide").click()
+    page.get_by_role("link", name="Help").click()
     expect(page.get_by_role("heading", name="Tandem", level=1)).to_be_visible()
     page.get_by_role("button", name="Search").first.click()
     page.locator("input[aria-label=Search]").fill("endurance")

@@ -7,7 +7,7 @@ from typing import Any
 import pytest
 from playwright.sync_api import Page, Route, expect
 
-from tests.console.steps import open_file, planned, state
+from tests.console.steps import choose_example, open_file, planned, state
 from tests.console.test_importing import SHEET, dialog, read_anew, use
 from tests.console.test_everyone import findings
 
@@ -86,8 +86,7 @@ def test_everyone_can_answer(open_page: Callable[..., Page], service: str,
 def test_the_example_of_a_working_day_is_read_and_planned(page: Page) -> None:
     page.get_by_role("button", name="Draw", exact=True).click()
     page.get_by_role("button", name="No-fly area").click()
-    page.get_by_label("Open an example").select_option(
-        label="Spreadsheet: a working day with all its rules")
+    choose_example(page, "sheet")
     shown = dialog(page)
     question = shown.get_by_role("group", name="Plan")
     expect(question.get_by_role("button", name="Rules of the whole plan")).to_have_attribute(

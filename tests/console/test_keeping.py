@@ -61,6 +61,7 @@ def save(page: Page, name: str, where: str) -> None:
 
 def saved(page: Page) -> Locator:
     """Open the list of saved plans, once it is read."""
+    page.locator("#open-menu-button").click()
     page.locator("#saved-plans").click()
     plans = page.get_by_role("list", name="Saved plans")
     expect(plans).to_be_attached()

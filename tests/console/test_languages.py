@@ -11,7 +11,9 @@ import pytest
 from playwright.sync_api import Page, expect
 
 from app.schemas.request import PlanRequest
-from tests.console.steps import EXAMPLES, ROOT, STATIC, idle, open_file, open_tab, planned
+from tests.console.steps import (
+    EXAMPLES, ROOT, STATIC, choose_example, idle, open_file, open_tab, planned,
+)
 from tests.console.test_everyone import findings
 
 pytestmark = [pytest.mark.slow, pytest.mark.begins_with("table1")]
@@ -40,6 +42,7 @@ def test_console_speaks_the_browsers_language_until_another_is_chosen(
     page = open_page(service, locale="de-CH")
     idle(page)
     expect(page.locator("html")).to_have_attribute("lang", "de")
+    page.locator("#settings-button").click()
     page.get_by_label("Sprache").select_option("en")
     expect(page.get_by_label("Language")).to_have_value("en")
     expect(page.locator("html")).to_have_attribute("lang", "en")
@@ -110,13 +113,13 @@ TABS = ("customers", "fleet", "solve", "routes", "costs", "unassigned", "changes
 def test_german_pages_have_nothing_english(open_page: Callable[..., Page], service: str) -> None:
     page = open_page(service, locale="de-DE")
     idle(page)
-    page.locator("header.head .problem select").select_option("city_day")
+    choose_example(page, "city_day")
     expect(page.locator(".result-line")).to_contain_text("bedient")
     idle(page)
     seen = page.evaluate(LEFT_OVERS)
     for tab in TABS:
         open_tab(page, tab)
-        page.evaluate("""document.querySelectorAll('.tab details:not(.in-api)')
+        page.evaluate("""document.querySelectorAll('.panel details:not(.in-api)')
             .forEach((details) => { details.open = true; })""")
         seen += page.evaluate(LEFT_OVERS)
     open_tab(page, "routes")
@@ -124,8 +127,11 @@ def test_german_pages_have_nothing_english(open_page: Callable[..., Page], servi
     page.get_by_role("button", name="Warum hier?").click()
     expect(page.get_by_text("Alle anderen bleiben, wo sie sind")).to_be_visible()
     seen += page.evaluate(LEFT_OVERS)
-    for button in ("Tasten", "Gespeichert", "Speichern"):
-        page.locator("header.head").get_by_role("button", name=button, exact=True).click()
+    for menu, button in (("settings", "Tasten"), ("open-menu", "Gespeichert"), (None, "Speichern")):
+        if menu:
+            page.locator(f"#{menu}-button").click()
+            seen += page.evaluate(LEFT_OVERS)
+        page.get_by_role("button", name=button, exact=True).click()
         expect(page.get_by_role("dialog")).to_be_visible()
         seen += page.evaluate(LEFT_OVERS)
         page.keyboard.press("Escape")
@@ -166,7 +172,7 @@ def test_zones_and_wind_have_nothing_english_on_german_pages(
         "Der Ort liegt in der Zone Hafen (EDR1): Fliegen braucht eine Genehmigung, vom Boden bis "
         "500 m \u00fcber dem Meer. Zust\u00e4ndig: Amt.")
     page.get_by_role("button", name="Anna").first.click()
-    expect(page.locator(".leaflet-tooltip")).to_contain_text("Nicht mit Quad")
+    expect(page.get_by_role("region", name="Einzelheiten")).to_contain_text("Nicht mit Quad")
     seen = page.evaluate(LEFT_OVERS)
     open_tab(page, "fleet")
     expect(page.get_by_role("table", name="Wind je Stunde")).to_contain_text("Quad")
@@ -176,10 +182,12 @@ def test_zones_and_wind_have_nothing_english_on_german_pages(
 
 def test_language_changes_at_once_everywhere(console: Page) -> None:
     open_tab(console, "costs")
+    console.locator("#settings-button").click()
     console.get_by_label("Language").select_option("de")
     expect(console.locator("#tab-costs")).to_have_text("Kosten")
     expect(console.locator("#total-cost")).to_have_text(re.compile(r"\d,\d\d"))
     expect(console.get_by_role("button", name="Tag abspielen")).to_be_visible()
+    console.locator("#settings-button").click()
     console.get_by_label("Sprache").select_option("en")
     expect(console.locator("#tab-costs")).to_have_text("Costs")
 
@@ -195,6 +203,9 @@ def test_error_is_told_in_words_and_its_path_is_behind_a_click(
     expect(alert).to_contain_text("Fahrzeugtyp truck \u203a Geschwindigkeit")
     expect(alert).to_contain_text("Die Zahl muss mindestens 1 sein.")
     expect(alert.locator("code")).to_be_hidden()
+    page.locator("#settings-button").click()
+    page.get_by_label("Ansicht für Entwickler").check()
+    page.keyboard.press("Escape")
     alert.locator("summary").click()
     expect(alert.locator("code")).to_have_text("$.fleet[0].speed_kmh")
 

@@ -30,9 +30,9 @@ def test_stop_tells_arrival_window_lateness_and_load(console: Page) -> None:
     open_example(console, "drones")
     console.mouse.click(*place_of(console, "c:D"))
     assert state(console, "state.selection") == "c:D"
-    tip = console.locator(".leaflet-tooltip")
+    details = console.get_by_role("region", name="Details")
     for text in ("Arrival", "until 0:15", "Served by", re.compile("Load on leaving|Payload")):
-        expect(tip).to_contain_text(text)
+        expect(details).to_contain_text(text)
     open_tab(console, "routes")
     expect(console.locator("tr[data-key='c:D']")).to_have_attribute("data-selected", "true")
 
@@ -113,11 +113,11 @@ def test_flights_are_drawn_as_they_are_measured(console: Page) -> None:
     drawn, measured = console.evaluate("""async () => {
       const load = (path) => loaded(`${path}.js`);
       const [{ store }, { indexOf, shownPlan }] = await Promise.all(['store', 'actions'].map(load));
-      const [{ flightLines }, { lengthOf }] = await Promise.all(
+      const [{ flownLines }, { lengthOf }] = await Promise.all(
         ['core/flights', 'core/geometry'].map(load));
       const index = indexOf(shownPlan(store.get()));
       const [sortie] = index.vehicles[0].trips[0].sorties;
-      const legs = flightLines(index.request)(sortie);
+      const legs = flownLines(index.request)(sortie);
       return [legs.reduce((sum, leg) => sum + lengthOf(leg), 0) * 1000, sortie.reply.distance];
     }""")
     assert abs(drawn - measured) < 1

@@ -103,6 +103,8 @@ def test_panning_among_two_thousand_customers_changes_nothing(
     before = plan_shown(crowd)
     stroke = way(crowd)
     crowd.set_viewport_size({"width": width, "height": height})
+    if width < 700:
+        crowd.get_by_role("button", name="Height of the panel").click()
     assert random_drags(crowd, ".map", stroke) > DRAGS / 2
     crowd.get_by_role("button", name="Zoom into the timeline").click()
     random_drags(crowd, ".rows canvas", stroke)

@@ -170,6 +170,7 @@ def test_forms_are_made_from_the_schema_and_change_the_problem(page: Page) -> No
     count.fill("3")
     count.press("Enter")
     assert state(page, "state.request.fleet.0.count") == 3
+    page.get_by_label("Explain fields").check()
     expect(page.get_by_text("How many vehicles there are of this type.")).to_be_visible()
     latest = page.locator("#field-fleet-0-shift-latest")
     latest.fill("5:30")
@@ -203,7 +204,7 @@ def test_errors_of_the_service_are_shown_at_their_fields(
     open_tab(page, "fleet")
     speed = page.locator("#field-fleet-0-speed_kmh")
     expect(page.locator("#field-fleet-0-speed_kmh-error")).to_contain_text("at least 1")
-    expect(page.locator("#tab-fleet .count")).to_be_visible()
+    expect(page.locator("#room-fleet .count")).to_be_visible()
     open_tab(page, "costs")
     place = "Vehicle type truck \u203a Speed km/h"
     page.get_by_role("alert").get_by_role("button", name=place).click()

@@ -47,9 +47,11 @@ def plan_on(page: Page) -> dict[str, Any]:
 
 
 def select(page: Page, customer: str) -> None:
-    """Select a customer on the map."""
+    """Select a customer on the map, which the details of another may lie over."""
+    page.keyboard.press("Escape")
     page.mouse.click(*place_of(page, f"c:{customer}"))
-    expect(page.locator(".card header").filter(has_text=customer)).to_be_visible()
+    details = page.get_by_role("region", name="Details")
+    expect(details.get_by_role("heading", name=customer, exact=True)).to_be_visible()
 
 
 def customers_of(plan: dict[str, Any]) -> dict[str, str]:
@@ -174,7 +176,7 @@ def test_what_can_not_be_replanned_is_said_where_it_belongs(
     page.locator(".tab").get_by_role("button", name="Plan on").click()
     alert = page.get_by_role("alert")
     expect(alert).to_contain_text("The request has 2 errors")
-    expect(page.locator("#tab-replan .count")).to_have_text("2")
+    expect(page.locator("#room-day .count")).to_have_text("2")
     late = page.locator(".replan-vehicles tr").filter(has_text="too late to cancel")
     expect(late).to_have_count(1)
     expect(page.locator(".field").filter(has_text="Parcels are back at")).to_contain_text(
@@ -185,7 +187,7 @@ def test_what_can_not_be_replanned_is_said_where_it_belongs(
     page.keyboard.press("Control+a")
     page.keyboard.press("Delete")
     page.keyboard.press("Enter")
-    expect(page.locator("#tab-replan .count")).to_have_text("1")
+    expect(page.locator("#room-day .count")).to_have_text("1")
 
 
 def test_plan_is_improved_and_replanned_by_keyboard(page: Page) -> None:
@@ -227,6 +229,7 @@ def test_plan_is_improved_and_replanned_by_keyboard(page: Page) -> None:
 def test_replanning_fits_a_phone(open_page: Callable[..., Page], service: str) -> None:
     page = open_page(service, viewport={"width": 390, "height": 844}, has_touch=True)
     idle(page)
+    page.get_by_role("button", name="Height of the panel").tap()
     begin(page)
     page.get_by_label("truck-1 is broken").check()
     plan_on(page)

@@ -7,7 +7,7 @@ from typing import Any
 import pytest
 from playwright.sync_api import Locator, Page, expect
 
-from tests.console.steps import open_file, open_tab, planned, state
+from tests.console.steps import open_file, open_tab, planned, show_rules, state
 from tests.console.test_everyone import findings
 
 pytestmark = pytest.mark.slow
@@ -57,6 +57,7 @@ def state_customers(page: Page) -> None:
     """Give one another place, one a preferred vehicle, and add a shipment."""
     panel = page.locator(".panel")
     panel.get_by_role("button", name="D", exact=True).click()
+    show_rules(page)
     panel.get_by_role("button", name="Add to other places").click()
     other = panel.locator("fieldset.list", has_text="Other places").locator(".entry")
     expect(other.get_by_label("Location", exact=True)).to_have_value("-5, -1")
@@ -64,6 +65,7 @@ def state_customers(page: Page) -> None:
     fill(other.get_by_label("Location", exact=True), "-1, 1")
     fill(other.get_by_label("Cost", exact=True), "0.5")
     panel.get_by_role("button", name="E", exact=True).click()
+    show_rules(page)
     costs = panel.get_by_label("Costs by vehicle")
     costs.fill("van-1: 40\nvan-2: many")
     costs.blur()
@@ -81,6 +83,7 @@ def state_customers(page: Page) -> None:
 def state_fleet(page: Page) -> None:
     """Give drivers a break and rests, and say what is fair."""
     panel = page.locator(".panel")
+    show_rules(page)
     panel.get_by_role("button", name="Add to breaks").click()
     break_ = panel.locator("fieldset.list", has_text="Breaks").locator(".entry")
     fill(break_.get_by_label("Duration"), "20 min")

@@ -171,7 +171,8 @@ def test_streets_are_named_once_one_is_near_enough_to_read_it(
     page.evaluate("window.written.clear()")
     page.keyboard.press("l")
     page.wait_for_load_state("networkidle")
-    assert page.evaluate("[...window.written]") == []
+    # Only the ground's own large cities are named then.
+    assert set(page.evaluate("[...window.written]")) <= {"Helsinki"}
 
 
 @pytest.mark.parametrize(("width", "height"), [(1440, 900), (1024, 768), (390, 844)])
@@ -219,7 +220,7 @@ def test_leg_that_is_clicked_shows_its_road(open_page: Callable[..., Page], city
     page.mouse.click(*position([(start[0] + end[0]) / 2, (start[1] + end[1]) / 2]))
     selection = state(page, "state.selection")
     assert selection.startswith("l:0/0/")
-    tip = page.locator(".leaflet-tooltip")
+    details = page.get_by_role("region", name="Details")
     for term in ("Road", "Takes", "Departure", "→"):
-        expect(tip).to_contain_text(term)
+        expect(details).to_contain_text(term)
     assert len(lines[int(selection.rpartition("/")[2])]) > 2

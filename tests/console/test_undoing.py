@@ -114,8 +114,9 @@ def test_single_keys_are_put_off_and_stay_so(page: Page) -> None:
         loaded_anew(page)
     page.keyboard.press("Control+z")
     assert first_customer(page) != "edited"
+    page.locator("#settings-button").click()
     page.get_by_role("button", name="Keys").click()
     shown.get_by_label("Single keys do something").check()
     page.keyboard.press("Escape")
-    page.keyboard.press("4")
+    page.keyboard.press("3")
     assert state(page, "state.tab") == "routes"

@@ -175,8 +175,8 @@ def test_a_countrys_file_is_dropped_planned_around_and_told_of_and_flights_are_s
     planned(page, "4 of 5 served")
     page.mouse.click(*place_of(page, "c:closed"))
     page.mouse.move(1, 1)
-    tip = page.locator(".leaflet-tooltip", has_text="closed")
-    expect(tip.get_by_role("definition").last).to_have_text(
+    details = page.get_by_role("region", name="Details")
+    expect(details.get_by_role("definition").last).to_have_text(
         "It lies in the zone Airport (EFAIR), where flying takes an authorisation from the ground "
         "to 1,500 ft above the sea. Its authority: Fintraffic, drones@authority.example.")
     open_tab(page, "unassigned")

@@ -2,7 +2,6 @@ import assert from 'node:assert/strict';
 import { test } from 'node:test';
 
 import {
-  changeDrones,
   droneCount,
   dronesOfSortie,
   flightCount,
@@ -33,16 +32,6 @@ test('drones of all types are counted', () => {
   assert.equal(droneCount(truck), 3);
   assert.equal(droneCount({ drones: large }), 1);
   assert.equal(droneCount({}), 0);
-});
-
-test('a list of drones stays one when they are changed', () => {
-  const empty = (drones) => ({ ...drones, capacity: [] });
-  assert.deepEqual(changeDrones({ drones: [small, large] }, empty).map(({ id }) => id), [
-    'small',
-    'large',
-  ]);
-  assert.deepEqual(changeDrones({ drones: large }, empty).capacity, []);
-  assert.equal(changeDrones({ drones: null }, empty), null);
 });
 
 test('launches take the time of their type, a swap but for the first', () => {

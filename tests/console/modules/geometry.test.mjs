@@ -2,7 +2,6 @@ import assert from 'node:assert/strict';
 import test from 'node:test';
 import { Airspace } from '../../../app/console/static/js/core/detour.js';
 import {
-  arc,
   distanceToLine,
   lengthOf,
   nearestLine,
@@ -78,13 +77,6 @@ test('too strong a wind is no flight, and a tail wind is faster', () => {
   assert.ok(windy.duration([0, 0], [100, 0]) < windy.duration([100, 0], [0, 0]));
   const stormy = new Airspace([], { speed_kmh: 80, direction_deg: 270 }, 60);
   assert.equal(stormy.duration([100, 0], [0, 0]), Infinity);
-});
-
-test('an arc begins and ends where the flight does, out and back on different sides', () => {
-  const [out, back] = [arc([0, 0], [10, 0]), arc([10, 0], [0, 0])];
-  assert.deepEqual(out[0], [0, 0]);
-  assert.deepEqual(out.at(-1), [10, 0]);
-  assert.ok(out[7][1] > 0 && back[7][1] < 0);
 });
 
 test('a point along a line is found by its share of the way', () => {

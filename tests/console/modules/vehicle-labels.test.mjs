@@ -1,7 +1,7 @@
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
 
-import { labelOfVehicle } from '../../../app/console/static/js/core/vehicle-labels.js';
+import { callBy, labelOfVehicle, nameOfVehicle } from '../../../app/console/static/js/core/vehicle-labels.js';
 
 function labels(...types) {
   const fleet = types.map(([id, count]) => ({ id, count }));
@@ -32,4 +32,13 @@ test('drivers by name have letters alone, all unlike', () => {
 
 test('a vehicle of a type that the fleet has no more is known by its number', () => {
   assert.equal(labelOfVehicle([{ id: 'van', count: 1 }], 'truck-4', 'truck'), '4');
+});
+
+test('a lone vehicle is called as its type, others by their names where they have some', () => {
+  callBy([{ id: 'van', count: 1 }, { id: 'bike', count: 2, names: ['Anna'] }]);
+  assert.deepEqual(
+    ['van-1', 'van-1/drone-2', 'bike-1', 'bike-2', 'bike-3', 'other-1'].map(nameOfVehicle),
+    ['van', 'van/drone-2', 'Anna', 'bike-2', 'bike-3', 'other-1'],
+  );
+  callBy([]);
 });

@@ -5,8 +5,10 @@ import { NOTHING_TYPED } from './core/orders.js';
 import { getIn, parsePath } from './core/paths.js';
 import { indexPlan } from './core/plan.js';
 import { settledParts } from './core/replanning.js';
+import { roomOf } from './core/rooms.js';
 import { titleOf } from './core/said.js';
 import { inSeconds } from './core/times.js';
+import { layOut } from './frame.js';
 import { store } from './store.js';
 import { t } from './texts.js';
 
@@ -135,6 +137,9 @@ export function hover(key) {
 
 /** Show a tab of the panel. */
 export function openTab(tab) {
+  const { frame } = store.get();
+  const sheet = frame.sheet === 'low' ? 'half' : frame.sheet;
+  layOut({ folded: false, sheet, tabs: { ...frame.tabs, [roomOf(tab)]: tab } });
   store.set({ tab });
 }
 

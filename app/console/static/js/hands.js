@@ -9,6 +9,7 @@ import { takesAnotherTrip, withAnotherTrip } from './core/orders.js';
 import { unlike } from './core/naming.js';
 import { penaltyOf, trueCost } from './core/terms.js';
 import { shipmentOf, visitNamesOf } from './core/visits.js';
+import { nameOfVehicle } from './core/vehicle-labels.js';
 import { stop } from './planning.js';
 import { store } from './store.js';
 import { t } from './texts.js';
@@ -49,7 +50,7 @@ export const takeFit = (fit, place) =>
       request,
       added: isNew ? fit.customer : null,
       decided: withRoute(entry.plan, names, place.route),
-      words: t('hand.to', { id: [id, ...along].join(', '), vehicle: place.vehicle }),
+      words: t('hand.to', { id: [id, ...along].join(', '), vehicle: nameOfVehicle(place.vehicle) }),
     };
   });
 

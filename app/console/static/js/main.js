@@ -4,6 +4,7 @@ import { html, render } from './libraries.js';
 import { openRequest, showFailure } from './actions.js';
 import * as api from './api.js';
 import { followKept } from './dispatching.js';
+import { recallFrame } from './frame.js';
 import { adopt, startKeeping } from './keeping/drafts.js';
 import { goOn, listenToLinks, tokenInAddress, viewShared } from './keeping/kept.js';
 import { plan } from './planning.js';
@@ -11,7 +12,6 @@ import { store } from './store.js';
 import { App } from './views/app.js';
 import { listenToDrops, listenToPastes } from './views/files.js';
 import { listenToKeys } from './views/shortcuts.js';
-import { recallDismissed } from './views/warnings-bar.js';
 
 const FIRST_EXAMPLE = 'berlin';
 const IN_ADDRESS = '#example=';
@@ -35,7 +35,7 @@ async function begin() {
   const root = document.getElementById('app');
   root.replaceChildren();
   render(html`<${App} />`, root);
-  recallDismissed();
+  recallFrame();
   listenToKeys();
   listenToDrops();
   listenToPastes();

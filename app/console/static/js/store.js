@@ -1,6 +1,7 @@
 /** The state that all views share, and how they follow it. */
 
 import { tellBy } from './core/format.js';
+import { callBy } from './core/vehicle-labels.js';
 import { useEffect, useState } from './libraries.js';
 import { LOOKING } from './state/looking.js';
 import { PLANS } from './state/plans.js';
@@ -41,7 +42,10 @@ function initial() {
 export const store = createStore(initial());
 
 // Before any view: all of them tell times and money alike.
-store.subscribe(({ request }) => tellBy(request));
+store.subscribe(({ request }) => {
+  tellBy(request);
+  if (request) callBy(request.fleet);
+});
 
 /**
  * Follow a part of the state.

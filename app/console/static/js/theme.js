@@ -3,4 +3,6 @@
   const chosen = localStorage.getItem('tandem-theme');
   const dark = chosen ? chosen === 'dark' : matchMedia('(prefers-color-scheme: dark)').matches;
   document.documentElement.dataset.theme = dark ? 'dark' : 'light';
+  const developer = localStorage.getItem('tandem-developer') === 'on';
+  document.documentElement.toggleAttribute('data-developer', developer);
 })();

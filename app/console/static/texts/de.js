@@ -316,10 +316,9 @@ export default {
   header: {
     language: 'Sprache',
     cost: 'Kosten {{sum}}',
-    penalty: '+ {{sum}} Strafe',
     penaltyHelp:
-      'Kein Teil der Kosten: Niemand zahlt sie. Sie lässt den Planer einplanen, wen er kann; ' +
-      'was Auslassen wirklich kostet, steht unter Flotte.',
+      'Für Ausgelassene rechnet der Planer {{sum}} mehr, die niemand zahlt. Was Auslassen ' +
+      'wirklich kostet, steht unter Flotte.',
     changedSince: 'Das Problem hat sich seitdem geändert:',
     changed: 'Geändert:',
     planAgain: 'neu planen.',
@@ -333,7 +332,6 @@ export default {
     guide: 'Hilfe',
     light: 'Hell',
     dark: 'Dunkel',
-    example: 'Beispiel öffnen',
     file: 'Datei öffnen',
     saved: 'Gespeichert',
     fileInput: 'Zu öffnende Datei',
@@ -344,6 +342,11 @@ export default {
     vehicles_other: '{{count}} Fahrzeuge',
     flights_one: '{{count}} Flug',
     flights_other: '{{count}} Flüge',
+    used_one: '{{used}} von {{count}} Fahrzeug',
+    used_other: '{{used}} von {{count}} Fahrzeugen',
+    until: 'bis {{time}}',
+    open: 'Öffnen',
+    developer: 'Ansicht für Entwickler',
     rename: '{{name}}: umbenennen oder speichern unter',
     notSaved: 'Nicht gespeichert',
     untitled: 'Ohne Namen',
@@ -450,7 +453,10 @@ export default {
     whole: 'Ganzer Tag',
     unused: 'Kein Fahrzeug wird eingesetzt.',
     nothing: 'Noch ist nichts geplant.',
-    bars: 'Balken',
+    bars: 'Legende',
+    edge: 'Höhe der Zeitleiste',
+    fold: 'Zeitleiste einklappen',
+    unfold: 'Zeitleiste ausklappen',
     window: 'Zeitfenster',
     settled: 'Feststehend',
     about:
@@ -1040,6 +1046,7 @@ export default {
     vehicles_other: '{{count}} Fahrzeuge',
   },
   field: {
+    names: 'Namen',
     address: 'Adresse',
     allowed: 'Erlaubt',
     alternatives: 'Andere Orte',
@@ -1381,6 +1388,8 @@ export default {
       address: 'Wie auf einem Brief: Straße und Hausnummer, Postleitzahl und Ort.',
     },
     VehicleTypeInput: {
+      names:
+        'Wie man die Fahrzeuge nennt, der Reihe nach, etwa nach Fahrern, mit Komma dazwischen.',
       id: 'Name des Typs; seine Fahrzeuge heißen danach und nach einer Nummer.',
       flies: 'Ob es Drohnen sind, die selbst vom Depot fliegen, ohne Fahrzeug.',
       depot: 'Wo Fahrten beginnen und enden. Leer: das erste Depot.',
@@ -1925,6 +1934,32 @@ export default {
   panel: {
     title: 'Problem und Plan',
     tabs: 'Bereiche',
+    rooms: 'Räume',
+    edge: 'Breite der Liste',
+    sheet: 'Höhe der Liste',
+    details: 'Einzelheiten',
+  },
+  rules: {
+    find: 'Regel suchen',
+    all: 'Alle Regeln zeigen',
+    inUse: 'Regeln in Gebrauch',
+    none: 'Keine Regel handelt davon.',
+    load: 'Ladung',
+    hours: 'Zeiten',
+    ways: 'Wege',
+    flying: 'Fliegen',
+    energy: 'Energie',
+    other: 'Weitere',
+  },
+  room: {
+    orders: 'Aufträge',
+    fleet: 'Flotte',
+    routes: 'Touren',
+    day: 'Tag',
+    compare: 'Vergleich',
+    drivers: 'Fahrer',
+    export: 'Mitnehmen',
+    settings: 'Optionen',
   },
   tab: {
     customers: 'Kunden',
@@ -1932,7 +1967,7 @@ export default {
     solve: 'Suche',
     routes: 'Touren',
     costs: 'Kosten',
-    unassigned: 'Nicht eingeplant',
+    unassigned: 'Ausgelassen',
     changes: 'Was wäre wenn',
     replan: 'Umplanen',
     scenarios: 'Szenarien',
@@ -1973,7 +2008,7 @@ export default {
         does: 'Tag abspielen oder anhalten',
       },
       tabs: {
-        key: '1 bis 9, 0',
+        key: '1 bis 7',
         does: 'Einen Bereich öffnen',
       },
       open: {
@@ -2035,7 +2070,7 @@ export default {
       'oder einzeln hinzufügen.',
     notServed: 'nicht bedient',
     doubtful: 'Der Ort ist zweifelhaft',
-    select: 'Wählen Sie hier oder auf der Karte einen Kunden, um ihn zu ändern.',
+    edit: 'Bearbeiten',
     remove: 'Diesen Kunden entfernen',
     places: 'Koordinaten, Depots und Startplätze',
     depots_one: '{{count}} Depot',
@@ -2398,6 +2433,13 @@ export default {
     before: '{{name}}, vorher',
     title: 'Karte',
     fit: 'Alles zeigen',
+    straight: 'Wege in Luftlinie',
+    ground: 'Grund der Karte',
+    groundHelp:
+      'Straßen kommen von einem Server von OpenStreetMap, der dann erfährt, welchen Teil der ' +
+      'Karte Sie ansehen.',
+    fromServer: 'Straßen von einem Kartenserver',
+    own: 'Schlichter Grund, ohne diesen Server',
     one: 'Eine Karte',
     beside: 'Früherer Plan daneben',
     none:

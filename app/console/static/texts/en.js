@@ -303,10 +303,9 @@ export default {
   header: {
     language: 'Language',
     cost: 'Cost {{sum}}',
-    penalty: '+ {{sum}} penalty',
     penaltyHelp:
-      'Not part of the cost: nobody pays it. It makes the planner serve whom it can; what ' +
-      'leaving out truly costs is stated under Fleet.',
+      'For who is left out the planner counts {{sum}} more, which nobody pays. What leaving out ' +
+      'truly costs is stated under Fleet.',
     changedSince: 'The problem has changed since:',
     changed: 'Changed:',
     planAgain: 'plan again.',
@@ -317,10 +316,9 @@ export default {
     plan: 'Plan',
     stop: 'Stop',
     keys: 'Keys',
-    guide: 'Guide',
+    guide: 'Help',
     light: 'Light',
     dark: 'Dark',
-    example: 'Open an example',
     file: 'Open a file',
     saved: 'Saved',
     fileInput: 'File to open',
@@ -331,6 +329,11 @@ export default {
     vehicles_other: '{{count}} vehicles',
     flights_one: '{{count}} flight',
     flights_other: '{{count}} flights',
+    used_one: '{{used}} of {{count}} vehicle',
+    used_other: '{{used}} of {{count}} vehicles',
+    until: 'until {{time}}',
+    open: 'Open',
+    developer: 'Developer\'s view',
     rename: '{{name}}: rename or save as',
     notSaved: 'Not saved',
     untitled: 'Untitled',
@@ -437,12 +440,15 @@ export default {
     whole: 'Whole day',
     unused: 'No vehicle is used.',
     nothing: 'Nothing is planned yet.',
-    bars: 'Bars',
+    bars: 'Legend',
+    edge: 'Height of the timeline',
+    fold: 'Fold the timeline',
+    unfold: 'Unfold the timeline',
     window: 'Window',
     settled: 'Settled',
     about:
       'Timeline of vehicles and drones. Left and right go from stop to stop, up and ' +
-      'down from vehicle to vehicle; the same is in the Routes tab as tables.',
+      'down from vehicle to vehicle; the same is in the room Routes as tables.',
   },
   player: {
     pause: 'Pause',
@@ -1026,6 +1032,7 @@ export default {
     vehicles_other: '{{count}} vehicles',
   },
   field: {
+    names: 'Names',
     address: 'Address',
     allowed: 'Allowed',
     alternatives: 'Other places',
@@ -1368,6 +1375,8 @@ export default {
       address: 'As on a letter: street and number, postcode and town.',
     },
     VehicleTypeInput: {
+      names:
+        'What people call its vehicles, in order, such as their drivers, with commas between.',
       id: "The type's name; its vehicles are called by it and a number.",
       flies:
         'Whether these are drones that fly from the depot by themselves, without a truck.',
@@ -1878,6 +1887,32 @@ export default {
   panel: {
     title: 'Problem and plan',
     tabs: 'Panel',
+    rooms: 'Rooms',
+    edge: 'Width of the panel',
+    sheet: 'Height of the panel',
+    details: 'Details',
+  },
+  rules: {
+    find: 'Find a rule',
+    all: 'Show all rules',
+    inUse: 'Rules in use',
+    none: 'No rule is about that.',
+    load: 'Load',
+    hours: 'Hours',
+    ways: 'Ways',
+    flying: 'Flying',
+    energy: 'Energy',
+    other: 'Others',
+  },
+  room: {
+    orders: 'Orders',
+    fleet: 'Fleet',
+    routes: 'Routes',
+    day: 'Day',
+    compare: 'Compare',
+    drivers: 'Drivers',
+    export: 'Export',
+    settings: 'Settings',
   },
   tab: {
     customers: 'Customers',
@@ -1885,7 +1920,7 @@ export default {
     solve: 'Search',
     routes: 'Routes',
     costs: 'Costs',
-    unassigned: 'Unassigned',
+    unassigned: 'Left out',
     changes: 'What if',
     replan: 'Replan',
     scenarios: 'Scenarios',
@@ -1926,8 +1961,8 @@ export default {
         does: 'Play or pause the day',
       },
       tabs: {
-        key: '1 to 9, 0',
-        does: 'Open a tab of the panel',
+        key: '1 to 7',
+        does: 'Open a room',
       },
       open: {
         key: 'O',
@@ -1987,7 +2022,7 @@ export default {
       'None yet: open a file, paste from a sheet, draw them on the map or add them one by one.',
     notServed: 'not served',
     doubtful: 'Its place is doubtful',
-    select: 'Select a customer, here or on the map, to change it.',
+    edit: 'Edit',
     remove: 'Remove this customer',
     places: 'Coordinates, depots and launch sites',
     depots_one: '{{count}} depot',
@@ -2341,6 +2376,13 @@ export default {
     before: '{{name}}, before',
     title: 'Map',
     fit: 'Fit',
+    straight: 'Ways as the crow flies',
+    ground: 'Ground of the map',
+    groundHelp:
+      'Streets come from a server of OpenStreetMap, which then learns which part of the map you ' +
+      'look at.',
+    fromServer: 'Streets from a tile server',
+    own: 'Plain ground, without that server',
     one: 'One map',
     beside: 'Former plan beside',
     none:

@@ -5,7 +5,7 @@ import { lengthOf, planeOf } from './geometry.js';
 import { partsOf } from './plan.js';
 import { saidOf } from './said.js';
 import { choiceOf } from './schema.js';
-import { titleOfVehicle } from './vehicle-labels.js';
+import { nameOfVehicle, titleOfVehicle } from './vehicle-labels.js';
 import { isVisit, leftOutOf, visitsOf } from './visits.js';
 import { windowsInWords, windowsOf } from './windows.js';
 import { t } from '../texts.js';
@@ -106,7 +106,7 @@ function servedFacts(index, halt, key) {
 /** Return what happens at a halt. */
 export function haltFacts(halt) {
   const facts = [
-    [t('about.servedBy'), halt.sortie ? halt.sortie.drone : halt.vehicle.name],
+    [t('about.servedBy'), nameOfVehicle(halt.sortie ? halt.sortie.drone : halt.vehicle.name)],
     [t('about.arrival'), clock(halt.arrival, { precise: true })],
   ];
   if (!isVisit(halt)) facts[0][0] = t('about.vehicle');
@@ -134,7 +134,7 @@ function describeSortie(index, key) {
   if (!sortie) return null;
   const { reply } = sortie;
   return {
-    title: t('about.flight', { drone: sortie.drone }),
+    title: t('about.flight', { drone: nameOfVehicle(sortie.drone) }),
     facts: [
       ...(reply.drone_type ? [[t('about.type'), reply.drone_type]] : []),
       [t('about.from'), sortie.from.id],
@@ -161,7 +161,7 @@ function describeTrip(index, key) {
   const trip = index?.vehicles[vehicle]?.trips[number];
   if (!trip) return null;
   return {
-    title: t('about.trip', { vehicle: trip.vehicle.name, number: number + 1 }),
+    title: t('about.trip', { vehicle: nameOfVehicle(trip.vehicle.name), number: number + 1 }),
     facts: [
       [t('about.loaded'), `${amounts(trip.reply.load)} (${percent(trip.reply.load_rate)})`],
       [trip.vehicle.flies ? t('about.flown') : t('about.driven'), km(trip.reply.distance)],
@@ -184,7 +184,7 @@ function describeLeg(request, index, key) {
   return {
     title: `${before.id} \u2192 ${leg.id}`,
     facts: [
-      [flies ? t('about.flownBy') : t('about.drivenBy'), trip.vehicle.name],
+      [flies ? t('about.flownBy') : t('about.drivenBy'), nameOfVehicle(trip.vehicle.name)],
       [flies ? t('about.flown') : drivenInWords(leg), length(metres)],
       [t('about.takes'), duration(leg.arrival - before.departure)],
       [t('about.departure'), clock(before.departure, { precise: true })],

@@ -6,6 +6,7 @@ import { indexPlan } from './plan.js';
 import { trueCost } from './terms.js';
 import { isVisit, leftOutOf, visitName } from './visits.js';
 import { t } from '../texts.js';
+import { nameOfVehicle } from './vehicle-labels.js';
 
 /** Return `[{path, before, after}]` of two requests; entries with an id are matched by it. */
 export function requestDifferences(before, after, path = '') {
@@ -115,7 +116,7 @@ function serversOf(request, plan) {
     servers.set(visitName(halt), {
       vehicle: vehicle.name,
       drone: sortie ? (sortie.reply.drone_type ?? 'drone') : null,
-      shown: sortie ? sortie.drone : vehicle.name,
+      shown: nameOfVehicle(sortie ? sortie.drone : vehicle.name),
     });
   }
   return servers;

@@ -58,9 +58,3 @@ export function flightCount({ request, plan }) {
   const own = plan.routes.filter(({ type }) => flying.has(type));
   return own.reduce((sum, { trips }) => sum + trips.length, plan.summary.sorties);
 }
-
-/** Return a vehicle type's `drones` with all of them changed. */
-export function changeDrones({ drones }, change) {
-  if (Array.isArray(drones)) return drones.map(change);
-  return drones ? change(drones) : drones;
-}

@@ -1,8 +1,8 @@
-/** The lines that flights of a plan take: as they are flown, and as the map draws them. */
+/** The lines that flights of a plan take. */
 
 import { Airspace } from './detour.js';
 import { dronesOfSortie } from './drones.js';
-import { arc, planeOf } from './geometry.js';
+import { planeOf } from './geometry.js';
 
 const DEFAULT_DRONE_SPEED_KMH = 60;
 
@@ -16,28 +16,11 @@ export function flownLines(request) {
   return legsOf;
 }
 
-/**
- * Return a function that gives a sortie's legs as they are drawn.
- *
- * A clear flight is straight and drawn as an arc, so that out and back are told apart; one around
- * no-fly areas is drawn as it is flown.
- */
-export function flightLines(request) {
-  const { legsOf, airspaceOf, bowOf } = flying(request);
-  return (sortie) => legsOf(sortie).map((line) => bowOf(line, airspaceOf(sortie)));
-}
-
-/**
- * Return what tells the lines of vehicles that fly by themselves, `{flown, drawn}`: that of a leg
- * as `(type, from, to)` are flown, and as `(type, line)` is drawn.
- */
+/** Return what tells the lines of types that fly by themselves, as `(type, from, to)` are flown. */
 export function linesByAir(request) {
-  const { plane, airspaceAt, bowOf } = flying(request);
-  return {
-    flown: ({ speed_kmh: speed }, from, to) =>
-      airspaceAt(speed).flight(plane.toPlane(from), plane.toPlane(to)).map(plane.fromPlane),
-    drawn: ({ speed_kmh: speed }, line) => bowOf(line, airspaceAt(speed)),
-  };
+  const { plane, airspaceAt } = flying(request);
+  return ({ speed_kmh: speed }, from, to) =>
+    airspaceAt(speed).flight(plane.toPlane(from), plane.toPlane(to)).map(plane.fromPlane);
 }
 
 /** Return what tells how a request's drones fly. */
@@ -54,12 +37,6 @@ function flying(request) {
   };
   const airspaceOf = ({ trip, reply }) =>
     airspaceAt(dronesOfSortie(trip.vehicle.type, reply)?.speed_kmh);
-  const bowOf = (line, airspace) => {
-    if (line.length !== 2) return line;
-    const bow = arc(...line.map(plane.toPlane));
-    const crosses = bow.some((point, index) => index > 0 && airspace.blocks(bow[index - 1], point));
-    return crosses ? line : bow.map(plane.fromPlane);
-  };
   const flown = (sortie, from, to) =>
     airspaceOf(sortie).flight(plane.toPlane(from), plane.toPlane(to)).map(plane.fromPlane);
   const legsOf = (sortie) => {
@@ -69,5 +46,5 @@ function flying(request) {
       .slice(1)
       .map((to, index) => sortie.lines?.[index] ?? flown(sortie, places[index], to));
   };
-  return { plane, airspaceAt, airspaceOf, bowOf, legsOf };
+  return { plane, airspaceAt, legsOf };
 }

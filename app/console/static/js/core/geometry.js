@@ -7,10 +7,6 @@ import { visitsOf } from './visits.js';
 const EARTH_RADIUS_M = 6371008.8;
 const RADIANS = Math.PI / 180;
 
-/** How far an arc bows out, as a share of its length. */
-const BOW = 0.14;
-const ARC_POINTS = 14;
-
 /**
  * Return functions between a request's coordinates and a plane in metres.
  *
@@ -90,23 +86,6 @@ export function nearestLine(point, lines, most = Infinity) {
     if (length < least) [nearest, least] = [index, length];
   });
   return nearest;
-}
-
-/** Return an arc from one point to another that bows out to the left of the way. */
-export function arc(from, to) {
-  const [dx, dy] = [to[0] - from[0], to[1] - from[1]];
-  if (dx === 0 && dy === 0) return [from, to];
-  const middle = [(from[0] + to[0]) / 2 - dy * 2 * BOW, (from[1] + to[1]) / 2 + dx * 2 * BOW];
-  const points = [];
-  for (let index = 0; index <= ARC_POINTS; index += 1) {
-    const share = index / ARC_POINTS;
-    const [first, second, third] = [(1 - share) ** 2, 2 * share * (1 - share), share ** 2];
-    points.push([
-      first * from[0] + second * middle[0] + third * to[0],
-      first * from[1] + second * middle[1] + third * to[1],
-    ]);
-  }
-  return points;
 }
 
 /** Return the length of a line of points. */

@@ -4,21 +4,24 @@ import { endsInWords } from './end-words.js';
 import { clock } from './format.js';
 import { saidOf } from './said.js';
 import { t } from '../texts.js';
+import { nameOfVehicle } from './vehicle-labels.js';
 
 /** Return what a change does, such as `B to truck-2, after C`. */
 export function moveInWords(index, id, place) {
   if (!place) return t('hand.leftOut', { id });
   const vehicle = index.vehicles.find(({ name }) => name === place.vehicle);
-  if (!vehicle) return t('hand.to', { id, vehicle: place.vehicle });
+  const called = nameOfVehicle(place.vehicle);
+  if (!vehicle) return t('hand.to', { id, vehicle: called });
   const stops = vehicle.trips[place.trip].stops;
   const own = stops[place.stop - 1].key === `c:${id}` ? place.stop - 2 : place.stop - 1;
   const { id: after } = stops[Math.max(own, 0)];
-  return t('hand.after', { id, vehicle: place.vehicle, after });
+  return t('hand.after', { id, vehicle: called, after });
 }
 
 /** Return who serves a customer or shipment at a place that was found, and where in its work. */
 export function placeInWords(place) {
-  const { vehicle, alternative, position, service_start: start, companions } = place;
+  const { alternative, position, service_start: start, companions } = place;
+  const vehicle = nameOfVehicle(place.vehicle);
   const along = (who) => (
     companions ? t('why.goingAlong', { who, names: companions.join(', ') }) : who);
   const ends = endsInWords(place);
@@ -42,7 +45,7 @@ export function rulesInWords(rules, routes = []) {
     const [, index] = /\.routes\[(\d+)\]/.exec(path ?? '') ?? [];
     const vehicle = routes[index]?.vehicle;
     const text = saidOf({ code, message });
-    return vehicle ? `${vehicle}: ${sentence(text, false)}` : sentence(text);
+    return vehicle ? `${nameOfVehicle(vehicle)}: ${sentence(text, false)}` : sentence(text);
   }))];
 }
 

@@ -174,3 +174,8 @@ function fieldParts(changes) {
       : t('name.fieldOf', { count: group.length, field: withinSentence(labelOf(field)) }),
   );
 }
+
+/** Return how many vehicles a fleet has. */
+export function fleetSize(fleet) {
+  return fleet.reduce((sum, { count = 1 }) => sum + count, 0);
+}

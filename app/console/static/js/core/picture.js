@@ -6,7 +6,7 @@ import { clock, money } from './format.js';
 import { tripDash, vehicleColour } from './palette.js';
 import { isByAir, spanOf } from './plan.js';
 import { standsOf } from './stands.js';
-import { penaltyOf, trueCost } from './terms.js';
+import { trueCost } from './terms.js';
 import { rowWindows, tickStep, timelineRows } from './timeline.js';
 import { escaped } from './exports.js';
 import { placeOf } from './places.js';
@@ -36,10 +36,8 @@ export function pictureOf(index, legsOf) {
 
 function titleShapes({ request, plan }) {
   const { summary } = plan;
-  const penalty = penaltyOf({ request, plan });
-  const apart = penalty ? ` (${t('header.penalty', { sum: money(penalty) })})` : '';
   const text = [
-    t('header.cost', { sum: money(trueCost({ request, plan })) }) + apart,
+    t('header.cost', { sum: money(trueCost({ request, plan })) }),
     t('header.served', { served: String(summary.served), customers: String(summary.customers) }),
     t('header.vehicles', { count: summary.vehicles }),
     t('routes.trips', { count: summary.trips }),
@@ -103,7 +101,7 @@ function tripShapes(trip, legsOf, at) {
   const colour = vehicleColour(trip.vehicle.number, false);
   const places = trip.stops.flatMap(({ location }) => (location ? [at(location)] : []));
   const middle = places[Math.floor(places.length / 2)];
-  const way = trip.stops.flatMap(({ drawn }) => drawn.map(at));
+  const way = trip.stops.flatMap(({ line }) => line.map(at));
   const style = trip.vehicle.flies ? FLIGHT : { width: 2.2, dash: tripDash(trip.index) };
   return [
     { kind: 'line', points: way, colour, ...style },

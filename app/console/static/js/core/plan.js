@@ -118,7 +118,6 @@ function indexTrip(index, vehicle, reply, number) {
     if (kind === 'break') halt.location = trip.stops[position - 1].location;
     const places = [trip.stops[position - 1]?.location, halt.location];
     halt.line = lineOf(geometry, places) ?? straightOrFlown(index, vehicle, places);
-    halt.drawn = vehicle.flies ? index.air.drawn(vehicle.type, halt.line) : halt.line;
   });
   trip.sorties = reply.sorties.map((sortie, position) => {
     const key = `s:${place}/${position}`;
@@ -153,7 +152,7 @@ function indexTrip(index, vehicle, reply, number) {
 /** Return the line of a leg of which nothing is told. */
 function straightOrFlown({ air }, { flies, type }, places) {
   const known = places.filter(Boolean);
-  return flies && known.length > 1 ? air.flown(type, ...known) : known;
+  return flies && known.length > 1 ? air(type, ...known) : known;
 }
 
 /**

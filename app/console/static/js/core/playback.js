@@ -6,7 +6,7 @@ import { pointAlong } from './geometry.js';
  * Return a function that gives everything's place at an instant.
  *
  * @param index of a plan
- * @param legsOf the lines of a sortie's legs, of `flightLines`
+ * @param legsOf the lines of a sortie's legs, of `flownLines`
  */
 export function playback(index, legsOf) {
   const trucks = index.vehicles.map((vehicle) => ({ vehicle, spans: vehicleSpans(vehicle) }));
@@ -48,7 +48,7 @@ function vehicleSpans(vehicle) {
       from: before.departure,
       until: halt.arrival,
       doing,
-      line: halt.trip === before.trip ? halt.drawn : [before.location, halt.location],
+      line: halt.trip === before.trip ? halt.line : [before.location, halt.location],
     };
     return [way, standing];
   });

@@ -5,7 +5,7 @@
 
 const REPEAT = 360; // pixels from a name along its street to the same name again
 const SAME = 220; // pixels that the same names keep from each other wherever they are
-const GAP = 8; // pixels around a name
+export const GAP = 8; // pixels around a name
 const BEND = 2.5; // pixels that a street may leave the straight line of its name by
 const TRIES = [0, -0.5, 0.5, -1, 1, -1.5, 1.5]; // widths of a name that it may be moved along
 const SIDES = [0, -1, 1]; // of a street

@@ -2,7 +2,7 @@
 
 import { dronesOfSortie } from './drones.js';
 import { launchDurations } from './launches.js';
-import { titleOfVehicle } from './vehicle-labels.js';
+import { nameOfVehicle, titleOfVehicle } from './vehicle-labels.js';
 import { isVisit } from './visits.js';
 
 /** What bars mean, in the order of the legend. */
@@ -24,6 +24,26 @@ export function timelineRows(index) {
     },
     ...droneRows(vehicle),
   ]);
+}
+
+/** So many idle vehicles have a row at most. */
+const MOST_IDLE = 100;
+
+/** Return a row for each vehicle that a plan doesn't use, to give somebody to. */
+export function idleRows({ request, vehicles }) {
+  const used = new Set(vehicles.map(({ name }) => name));
+  return request.fleet.flatMap((type) =>
+    Array.from({ length: Math.min(type.count ?? 1, MOST_IDLE) }, (_, at) => `${type.id}-${at + 1}`)
+      .filter((name) => !used.has(name))
+      .map((name) => ({
+        key: `idle ${name}`, kind: 'idle', name, label: nameOfVehicle(name), type, bars: [],
+      })));
+}
+
+/** Return when the vehicle of a row works: `[earliest, latest]`, ends that are open infinite. */
+export function shiftOf({ type, vehicle }) {
+  const { earliest, latest } = (type ?? vehicle.type)?.shift ?? {};
+  return [earliest ?? -Infinity, latest ?? Infinity];
 }
 
 function vehicleBars(vehicle) {
@@ -134,6 +154,7 @@ function sortieBars(vehicle, sortie, launching) {
 
 /** Return the windows that matter in a row: `{key, earliest, latest, arrival}`, open ends null. */
 export function rowWindows(row) {
+  if (row.kind === 'idle') return [];
   const halts =
     row.kind === 'vehicle'
       ? row.vehicle.trips.flatMap((trip) => trip.stops)

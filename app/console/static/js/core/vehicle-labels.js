@@ -9,9 +9,32 @@ import { t } from '../texts.js';
 
 const labels = new WeakMap();
 
+let shownFleet = [];
+
+/** Call vehicles as a fleet does, from now on. */
+export function callBy(fleet) {
+  shownFleet = fleet;
+}
+
+/**
+ * Return what people call a vehicle, or a drone that is aboard of one, by the name in a plan.
+ *
+ * A type's only vehicle is called as its type is.
+ */
+export function nameOfVehicle(name) {
+  const [vehicle, ...aboard] = name.split('/');
+  const [, id, digits] = /^(.*)-(\d+)$/s.exec(vehicle) ?? [];
+  const number = Number(digits);
+  const type = shownFleet.find((each) => each.id === id);
+  if (!type || number > type.count) return name;
+  const called = type.names?.[number - 1] ?? (type.count === 1 ? id : vehicle);
+  return [called, ...aboard].join('/');
+}
+
 /** Return what a vehicle of a plan's index is called: by its name, and that it flies if it does. */
 export function titleOfVehicle({ name, flies }) {
-  return flies ? t('about.flying', { vehicle: name }) : name;
+  const vehicle = nameOfVehicle(name);
+  return flies ? t('about.flying', { vehicle }) : vehicle;
 }
 
 /** Return the label of a vehicle by its name and type's id. */

@@ -2,17 +2,17 @@
 
 import { getIn, parsePath } from './paths.js';
 
-/** Warnings that say the same of every problem: dismissed once, they stay so. */
-const LASTING = new Set(['AS_THE_CROW_FLIES']);
+const STRAIGHT = 'AS_THE_CROW_FLIES';
 
 /** Return what tells a warning from others. */
-export function warningKey({ code, path, message }) {
-  return LASTING.has(code) ? code : [code, path, message].join(' ');
+function warningKey({ code, path, message }) {
+  return [code, path, message].join(' ');
 }
 
-/** Tell whether a dismissed warning is not to be shown in later visits either. */
-export function isLasting(key) {
-  return LASTING.has(key);
+/** Tell whether a plan's vehicles drive straight ways, for want of roads; flights always do. */
+export function drivesStraight({ request, plan }) {
+  return request.fleet.some(({ flies }) => !flies)
+    && (plan.warnings ?? []).some(({ code }) => code === STRAIGHT);
 }
 
 /**
@@ -25,6 +25,8 @@ export function isLasting(key) {
 export function standingWarnings(warned, request, dismissed) {
   if (!warned || !request) return [];
   return (warned.warnings ?? [])
+    // That is as true of every other problem, and stands on the map.
+    .filter(({ code }) => code !== STRAIGHT)
     .map((warning) => ({ ...warning, key: warningKey(warning), keys: parsePath(warning.path) }))
     .filter(({ key }) => !dismissed.includes(key))
     .filter(({ keys }) => isUntouched(warned.request, request, keys));

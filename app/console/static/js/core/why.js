@@ -8,6 +8,7 @@ import { costTerms } from './terms.js';
 import { windowsOf } from './windows.js';
 import { zoneInWords } from './zone-words.js';
 import { t } from '../texts.js';
+import { nameOfVehicle } from './vehicle-labels.js';
 
 /** So many other vehicles are shown at first. */
 export const FIRST_SHOWN = 6;
@@ -78,7 +79,7 @@ export function isOnSortie({ position }) {
 }
 
 function whoseOf(item) {
-  const { vehicle } = item;
+  const vehicle = nameOfVehicle(item.vehicle);
   return isOnSortie(item) ? t('place.drone', { vehicle }) : vehicle;
 }
 

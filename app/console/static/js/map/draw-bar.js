@@ -4,6 +4,7 @@ import { shownPlan } from '../actions.js';
 import { clock, parseClock, parseNumber } from '../core/format.js';
 import { html, useState } from '../libraries.js';
 import { store, useStore } from '../store.js';
+import { Icon } from '../views/icon.js';
 import { TOOLS } from './tools.js';
 import { t } from '../texts.js';
 
@@ -28,7 +29,8 @@ export function DrawBar() {
   const hidden = { pin: !replans, fit: !isPlanned, place: !isChosen, order: !isOrdering };
   const tools = TOOLS.filter((key) => !hidden[key]);
   return html`<div class="draw-bar">
-    <button type="button" aria-expanded=${open} onClick=${toggle}>${t('draw.title')}</button>
+    <button type="button" aria-expanded=${open} onClick=${toggle} title=${t('draw.title')}
+      aria-label=${t('draw.title')}><${Icon} name="pencil" /></button>
     ${
       open &&
       html`<div class="draw-tools" role="group" aria-label=${t('draw.tools')}>

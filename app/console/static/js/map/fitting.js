@@ -9,7 +9,10 @@ const EDGE = 36; // pixels around it
 const CLEAR = 10; // pixels around what lies on the map
 
 /** What lies on the map and hides what is below it. */
-const OVER = '.draw-bar > button, .map-tools, .leaflet-control, .map-legend, .map-title';
+const OVER = '.draw-bar button, .map-tools, .leaflet-control, .map-legend, .map-title';
+
+/** What may lie over a part of it, and reaches beyond it. */
+const BESIDE = '.panel, .details';
 
 /** Show all of some lines of places `[x, y]`, single places among them. */
 export function fitWhole(map, lines) {
@@ -67,9 +70,12 @@ function touches(points, box) {
 /** Return where something lies on a map, in pixels from its corner. */
 function overOn(map) {
   const frame = map.getContainer().getBoundingClientRect();
-  return [...map.getContainer().parentElement.querySelectorAll(OVER)]
+  const over = map.getContainer().parentElement.querySelectorAll(OVER);
+  return [...over, ...document.querySelectorAll(BESIDE)]
     .map((element) => element.getBoundingClientRect())
     .filter(({ width, height }) => width && height)
+    .filter(({ left, top, right, bottom }) => right > frame.left && left < frame.right
+      && bottom > frame.top && top < frame.bottom)
     .map(({ left, top, right, bottom }) => L.bounds(
       [left - frame.left - CLEAR, top - frame.top - CLEAR],
       [right - frame.left + CLEAR, bottom - frame.top + CLEAR],

@@ -1,6 +1,6 @@
 /** Leaflet layers of a problem and its plan. */
 
-import { flightLines } from '../core/flights.js';
+import { flownLines } from '../core/flights.js';
 import { nearestLine } from '../core/geometry.js';
 import { tripDash, vehicleColour } from '../core/palette.js';
 import { isByAir, partsOf } from '../core/plan.js';
@@ -18,7 +18,7 @@ const LINE = { weight: 2.5, opacity: 0.9, lineCap: 'round', lineJoin: 'round' };
 const LEG = { weight: 5, opacity: 0, lineCap: 'round', lineJoin: 'round', interactive: false };
 const MOST_LABELS = 30;
 const SETTLED = { weight: 2, opacity: 0.5, dashArray: '1 5' };
-const FLIGHT = { weight: 1.6, opacity: 0.95, dashArray: '1 4', lineCap: 'round' };
+const FLIGHT = { weight: 1.6, opacity: 0.95, dashArray: '5 4', lineCap: 'butt' };
 
 /** A drive that is drawn only where it stands out. */
 const Leg = L.Polyline.extend({
@@ -47,7 +47,7 @@ function redOf(dark) {
  * @param parts what is settled, of `settledParts`
  */
 export function planLines(index, parts, dark) {
-  const legsOf = flightLines(index.request);
+  const legsOf = flownLines(index.request);
   const lines = [];
   for (const vehicle of index.vehicles) {
     const colour = vehicleColour(vehicle.number, dark);
@@ -86,7 +86,7 @@ function stretches(trip, parts) {
     const standing = standingIn(parts, halt);
     const last = found[found.length - 1];
     const isNext = trip.stops[halt.stop - 1] === stops[position];
-    const way = (isNext ? halt.drawn : [stops[position].location, halt.location]).map(latLng);
+    const way = (isNext ? halt.line : [stops[position].location, halt.location]).map(latLng);
     if (last?.standing === standing) last.places.push(...way.slice(1));
     else found.push({ standing, places: way });
   });
@@ -98,7 +98,7 @@ export function legLine(index, key, dark) {
   const { vehicle, leg } = partsOf(index, key);
   if (!leg || leg.line.length < 2) return null;
   const base = { ...LEG, color: vehicleColour(vehicle.number, dark) };
-  return { key, base, layer: new Leg(leg.drawn.map(latLng), { ...base, key }) };
+  return { key, base, layer: new Leg(leg.line.map(latLng), { ...base, key }) };
 }
 
 /** Return the key of the drive to a stop. */
@@ -108,7 +108,7 @@ export function legKey({ trip, stop }) {
 
 /** Return the key of the drive of a trip that is nearest to a point of the map's container. */
 export function legAt(map, trip, { x, y }) {
-  const lines = trip.stops.map((halt, stop) => (stop ? pixelsOf(map, halt.drawn) : []));
+  const lines = trip.stops.map((halt, stop) => (stop ? pixelsOf(map, halt.line) : []));
   const stop = nearestLine([x, y], lines);
   return stop < 0 ? trip.key : legKey(trip.stops[stop]);
 }

@@ -1,28 +1,20 @@
 /** What the marks and lines of the map mean. */
 
-import { html, useEffect, useState } from '../libraries.js';
+import { html } from '../libraries.js';
 import { t } from '../texts.js';
 import { visitsOf } from '../core/visits.js';
 
-const NARROW = '(max-width: 1100px)';
-
 /**
- * The legend, folded where there is little room.
+ * The legend, for who asks.
  *
  * @param request that is drawn
  * @param index of the plan that is drawn, if there is one
  * @param parts what of it is settled
  */
 export function MapLegend({ request, index, parts }) {
-  const [open, setOpen] = useState(!window.matchMedia(NARROW).matches);
-  const replans = parts.size > 0;
-  useEffect(() => {
-    if (replans && !window.matchMedia(NARROW).matches) setOpen(true);
-  }, [replans]);
   const entries = entriesOf(request, index, parts);
   if (!entries.length) return null;
-  return html`<details class="map-legend" open=${open}
-      onToggle=${(event) => setOpen(event.currentTarget.open)}>
+  return html`<details class="map-legend">
     <summary>${t('legend.title')}</summary><ul>${entries.map(
       ([sign, name]) => html`<li key=${name}><${Sign} sign=${sign} />${t(`legend.${name}`)}</li>`,
     )}</ul></details>`;
@@ -62,8 +54,7 @@ function keepsAway({ no_fly: areas = [], zones = [], buffer = 0 } = {}) {
 const SIGNS = {
   road: html`<path class="ink" d="M1 7H25" stroke-width="2.5" />`,
   later: html`<path class="ink" d="M1 7H25" stroke-width="2.5" stroke-dasharray="9 5" />`,
-  flight: html`<path class="ink" d="M1 12Q13 -4 25 12" stroke-width="1.6" stroke-dasharray="1 4"
-    stroke-linecap="round" />`,
+  flight: html`<path class="ink" d="M1 7H25" stroke-width="1.6" stroke-dasharray="5 4" />`,
   truck: html`<circle class="filled" cx="13" cy="7" r="4.5" />`,
   drone: html`<circle class="ink" cx="13" cy="7" r="4" stroke-width="2.2" />`,
   site: html`<rect class="ink" x="5" y="2" width="16" height="10" rx="5" stroke-width="1.5" />`,

@@ -29,6 +29,7 @@ const AREAS = [
  * @type {[string, number, string[], string[]?][]}
  */
 const LINES = [
+  ['border', 1, ['#c3bfc9', '#4a5260']],
   ['stream', 0.8, ['#b4d2e8', '#1d4260']],
   ['river', 2, ['#c5dcec', '#14324a']],
   ['path', 0.7, ['#cfc7bb', '#303a43']],

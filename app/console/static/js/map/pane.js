@@ -2,13 +2,16 @@
 
 import { besidePlan, hover, indexOf, select, settledOf, shownPlan } from '../actions.js';
 import { describe } from '../core/describe.js';
-import { flightLines } from '../core/flights.js';
+import { flownLines } from '../core/flights.js';
 import { placeOf } from '../core/places.js';
 import { playback } from '../core/playback.js';
 import { visitsOf } from '../core/visits.js';
+import { layOut } from '../frame.js';
 import { Facts } from '../views/parts.js';
 import { html, render, useEffect, useLayoutEffect, useRef, useState } from '../libraries.js';
 import { store, useStore } from '../store.js';
+import { Icon } from '../views/icon.js';
+import { Menu } from '../views/menu.js';
 import { DrawBar } from './draw-bar.js';
 import { attachHandle } from './handle.js';
 import { followFit } from './plan-drag.js';
@@ -37,7 +40,9 @@ export function MapPane() {
         onView=${setFirst} isMain />
       <${DrawBar} />
       <div class="map-tools">
-        <button type="button" onClick=${() => first?.fit()}>${t('map.fit')}</button>
+        <button type="button" title=${t('map.fit')} aria-label=${t('map.fit')}
+          onClick=${() => first?.fit()}><${Icon} name="maximize" /></button>
+        <${Ground} request=${request} />
         ${
           beside &&
           html`<button type="button" aria-pressed=${split} onClick=${() => setSplit(!split)}>
@@ -62,6 +67,20 @@ export function MapPane() {
   </section>`;
 }
 
+/** Asks for streets of a server, which then learns where one looks: never by itself. */
+function Ground({ request }) {
+  const { tiles } = useStore((state) => state.frame);
+  const config = useStore((state) => state.config);
+  if (request.coordinate_system !== 'geographic' || config.tile_url || !config.public_tiles) {
+    return null;
+  }
+  return html`<${Menu} id="ground" name=${t('map.ground')} label=${html`<${Icon}
+      name="layers" />`}><section><h2>${t('map.ground')}</h2><p>${t('map.groundHelp')}</p>
+      <button type="button" popovertarget="ground" popovertargetaction="hide"
+        onClick=${() => layOut({ tiles: !tiles })}>${
+        tiles ? t('map.own') : t('map.fromServer')}</button></section></${Menu}>`;
+}
+
 /** Return what a map can't change once it is made. */
 function groundOf({ coordinate_system: system = 'planar', planar_unit: unit = 1 }) {
   return `${system}/${unit}`;
@@ -76,6 +95,7 @@ function Map({ request, entry, onView, isMain = false }) {
   const [view, setView] = useState(null);
   const dark = useStore((state) => state.dark);
   const config = useStore((state) => state.config);
+  const tiles = useStore((state) => state.frame.tiles);
   const geographic = request.coordinate_system === 'geographic';
   const planarUnit = request.planar_unit ?? 1;
   const index = indexOf(entry);
@@ -105,9 +125,10 @@ function Map({ request, entry, onView, isMain = false }) {
     };
   }, []);
   const doubts = useStore((state) => state.doubts);
-  useEffect(() => view?.shade(dark), [view, dark]);
   // Before anything is drawn, or all would be drawn twice.
   useEffect(() => view?.fit(request), [view, firstPlace(request)]);
+  useEffect(() => view?.setGround(tiles), [view, tiles]);
+  useEffect(() => view?.shade(dark), [view, dark]);
   useEffect(
     () => view?.draw(request, index, parts, dark, doubts),
     [view, request, index, parts, dark, doubts],
@@ -132,8 +153,8 @@ function followMarks(view, request, index) {
   let last = '';
   const follow = ({ selection, hover: hovered }) => {
     view.mark(selection, hovered);
-    const key = hovered ?? selection;
-    // A click takes the tip away, so it is shown again when the selection changes.
+    // What is selected has its details beside; a click takes the tip away.
+    const key = hovered === selection ? null : hovered;
     const now = `${key} ${selection}`;
     if (now !== last) {
       last = now;
@@ -149,7 +170,7 @@ function followMarks(view, request, index) {
 
 /** Move trucks and drones with the clock; returns a function that ends it. */
 function followClock(view, index) {
-  const placesAt = playback(index, flightLines(index.request));
+  const placesAt = playback(index, flownLines(index.request));
   let last;
   const follow = ({ time }) => {
     if (time === last) return;

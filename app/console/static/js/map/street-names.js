@@ -1,6 +1,6 @@
 /** Names of streets over their tiles, drawn for the whole map, so that no tile cuts them. */
 
-import { placeNames } from '../core/street-labels.js';
+import { GAP, placeNames } from '../core/street-labels.js';
 import { leaflet } from '../libraries.js';
 
 const L = leaflet();
@@ -10,6 +10,7 @@ const MOST_SHARPNESS = 2;
 
 /** Kinds in the order in which they are written: font, `[light, dark]`, and from which zoom. */
 const KINDS = {
+  place: ['600 12px', ['#59636e', '#aebac6'], 3],
   motorway: ['600 11.5px', ['#6b4d12', '#d8c08d'], 12.5],
   primary: ['600 11.5px', ['#4d5763', '#b8c4d0'], 13],
   main: ['500 11px', ['#4d5763', '#aebac6'], 14],
@@ -123,12 +124,11 @@ export const StreetNames = L.Renderer.extend({
     const ways = this.streets.named().flatMap(({ zoom: depth, column, row, names }) =>
       names
         .filter(([kind]) => zoom >= KINDS[kind]?.[2])
-        .flatMap(([kind, text, ...lines]) => lines.map((line) => ({
-          kind,
-          text,
-          width: this._widthOf(context, kind, text),
-          line: pixelsOf(line, whole / 2 ** depth, [column, row], origin),
-        }))));
+        .flatMap(([kind, text, ...lines]) => lines.map((steps) => {
+          const width = this._widthOf(context, kind, text);
+          const line = pixelsOf(steps, whole / 2 ** depth, [column, row], origin);
+          return { kind, text, width, line: line.length > 1 ? line : across(line[0], width) };
+        })));
     const length = ({ line }) => line.length && Math.hypot(
       line[line.length - 1][0] - line[0][0], line[line.length - 1][1] - line[0][1]);
     return ways
@@ -146,6 +146,12 @@ export const StreetNames = L.Renderer.extend({
     return this.widths.get(key);
   },
 });
+
+/** Return the line that the name of a single place is written along. */
+function across([x, y], width) {
+  const half = width / 2 + GAP;
+  return [[x - half, y], [x + half, y]];
+}
 
 /** Return a line of a tile in pixels of the map; see `app/maps/streets/cutting.py`. */
 function pixelsOf(steps, size, [column, row], origin) {

@@ -8,14 +8,18 @@ const L = leaflet();
 
 const TILE_PIXELS = 512;
 const STEPS = 4096; // in which tiles count, along each side
-const LAST_ZOOM = 14; // tiles of this zoom are enlarged
+const ZOOMS = Array.from({ length: 15 }, (_, zoom) => zoom); // of tiles; the last is enlarged
 const USUAL_ZOOM = 1; // by how much the map's zoom is more than that of tiles so large
 const SHARPNESS = 1.25; // what zooming between two whole zooms enlarges by
 const MOST_SHARPNESS = 2;
 
-/** A layer of the streets of one extract, `{name, bounds}` as the service configures it. */
+/**
+ * A layer of the streets of one extract, `{name, bounds}` as the service configures it.
+ *
+ * Of tiles there may be some `zooms` alone.
+ */
 export const StreetsLayer = L.GridLayer.extend({
-  options: { tileSize: TILE_PIXELS, minZoom: 5, maxZoom: 22 },
+  options: { tileSize: TILE_PIXELS, minZoom: 5, maxZoom: 22, zooms: ZOOMS },
 
   initialize({ name, bounds: [west, south, east, north] }, options) {
     const bounds = [
@@ -43,11 +47,12 @@ export const StreetsLayer = L.GridLayer.extend({
     const sharpness = Math.min(window.devicePixelRatio * SHARPNESS, MOST_SHARPNESS);
     canvas.width = Math.round(TILE_PIXELS * sharpness);
     canvas.height = canvas.width;
-    const deeper = Math.max(z - USUAL_ZOOM - LAST_ZOOM, 0);
+    const zoom = z - USUAL_ZOOM;
+    const deeper = zoom - this.options.zooms.findLast((there) => there <= zoom);
     const [column, row] = [x >> deeper, y >> deeper];
     const [left, top] = [x - (column << deeper), y - (row << deeper)];
     const scale = (canvas.width * 2 ** deeper) / STEPS;
-    const place = `${z - USUAL_ZOOM - deeper}/${column}/${row}`;
+    const place = `${zoom - deeper}/${column}/${row}`;
     let shapes = {};
     const repaint = () => {
       const context = canvas.getContext('2d');

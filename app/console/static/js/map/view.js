@@ -5,6 +5,7 @@ import { vehicleColour } from '../core/palette.js';
 import { placeOf } from '../core/places.js';
 import { standsOf } from '../core/stands.js';
 import { visitsOf } from '../core/visits.js';
+import { drivesStraight } from '../core/warned.js';
 import { leaflet } from '../libraries.js';
 import {
   bufferShapes,
@@ -23,10 +24,10 @@ import {
   tripLabels,
 } from './layers.js';
 import { fitWhole, isSeen } from './fitting.js';
+import { groundsOf } from './grounds.js';
 import { pointsOn } from './kept-clear.js';
 import { ScaleBar } from './scale.js';
-import { StreetNames } from './street-names.js';
-import { StreetsLayer } from './streets.js';
+import { t } from '../texts.js';
 
 const L = leaflet();
 const DIM = 0.18;
@@ -63,10 +64,9 @@ export class MapView {
     });
     L.control.zoom({ position: 'topright' }).addTo(this.map);
     this.map.setView([0, 0], 2);
-    this.grounds = geographic ? groundsOf(config, () => pointsOn(this)) : [];
-    if (this.grounds.length) L.control.attribution({ prefix: false }).addTo(this.map);
-    this.grounds.forEach((ground) => ground.addTo(this.map));
-    element.classList.toggle('with-streets', this.grounds.length > 0);
+    this.credit = L.control.attribution({ prefix: false }).addTo(this.map);
+    this.config = geographic ? config : null;
+    this.grounds = [];
     new ScaleBar({ metresPerUnit: geographic ? null : planarUnit }).addTo(this.map);
     this.areas = L.layerGroup().addTo(this.map);
     this.shapes = L.layerGroup().addTo(this.map);
@@ -132,8 +132,18 @@ export class MapView {
     this.isGone = true;
   }
 
+  /** Show a ground: tiles of a server if wanted, else the service's own. */
+  setGround(asksServer) {
+    this.grounds.forEach((ground) => ground.remove());
+    this.grounds = this.config ? groundsOf(this.config, asksServer, () => pointsOn(this)) : [];
+    this.grounds.forEach((ground) => ground.addTo(this.map));
+    this.map.getContainer().classList.toggle('with-streets', this.grounds.length > 0);
+    this.shade(this.dark);
+  }
+
   /** Show the ground in light or dark. */
   shade(dark) {
+    this.dark = dark;
     this.grounds.forEach((ground) => ground.setDark?.(dark));
   }
 
@@ -141,6 +151,7 @@ export class MapView {
   draw(request, index, parts, dark, doubts = {}) {
     const isNew = index !== this.index;
     Object.assign(this, { request, index, dark });
+    this.credit.setPrefix(index && drivesStraight(index) ? t('map.straight') : false);
     [this.areas, this.shapes, this.labels, this.numbers].forEach((group) => group.clearLayers());
     this.noFly = noFlyShapes(request, dark);
     this.buffers = bufferShapes(request, dark);
@@ -337,25 +348,6 @@ function restyle({ key, layer, base }, { isFocus, isDim, isBold }) {
   if (base.radius) layer.setRadius(isFocus ? base.radius + 3 : base.radius);
   // Above customers, lines would take their clicks.
   if (isFocus && key[0] === 'c') layer.bringToFront();
-}
-
-/** Return the layers under the plan: tiles of a server, or streets of the service's extracts. */
-function groundsOf(config, keptClear) {
-  if (config.tile_url) {
-    const attribution = asText(config.tile_attribution);
-    return [L.tileLayer(config.tile_url, { attribution, maxZoom: 20 })];
-  }
-  const attribution = asText(config.streets_attribution);
-  return config.streets.flatMap((extract) => {
-    const streets = new StreetsLayer(extract, { attribution });
-    return [streets, new StreetNames(streets, keptClear)];
-  });
-}
-
-function asText(text) {
-  const element = document.createElement('span');
-  element.textContent = text;
-  return element.innerHTML;
 }
 
 /** Return the key of the trip or vehicle that is to stand out. */

@@ -7,6 +7,15 @@ export const LOOKING = {
   playing: false,
   speed: 600, // seconds of the day per second
   tab: 'customers',
+  frame: { // how the desk is laid out, see frame.js
+    panel: 400, // pixels
+    timeline: 220,
+    folded: false, // the panel
+    timelineFolded: false,
+    sheet: 'half', // how high the panel is on a phone
+    tabs: {}, // the last of each room
+    tiles: false, // whether the map has streets of a public server, as was asked for
+  },
   dialog: null, // name of the open dialog
   tool: null, // what is drawn on the map, see map/tools.js
   brush: {

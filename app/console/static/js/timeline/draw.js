@@ -4,10 +4,10 @@ import { clock, firstHour } from '../core/format.js';
 import { contains, partsOf } from '../core/plan.js';
 import { vehicleColour } from '../core/palette.js';
 import { standingIn } from '../core/replanning.js';
-import { rowWindows, tickStep } from '../core/timeline.js';
+import { rowWindows, shiftOf, tickStep } from '../core/timeline.js';
 
 export const AXIS = 20;
-const HEIGHTS = { vehicle: 24, drone: 16 };
+const HEIGHTS = { vehicle: 24, drone: 16, idle: 24 };
 const TICK_PIXELS = 70;
 const KEPT_END = 3; // characters of a long name
 
@@ -120,21 +120,21 @@ function drawAxis(context, scale, { range, width, height, colours }) {
 function drawRow(context, row, scale, view) {
   const { width, colours } = view;
   const gutter = gutterOf(width);
-  const dimmed =
-    view.focus &&
+  const dimmed = view.focus && (row.kind === 'idle' || (
     !contains(view.index, view.focus, row.vehicle.key) &&
-    !contains(view.index, row.vehicle.key, view.focus);
+    !contains(view.index, row.vehicle.key, view.focus)));
   context.globalAlpha = dimmed ? 0.3 : 1;
   context.save();
   context.beginPath();
   context.rect(gutter, row.top, width - gutter, row.height);
   context.clip();
+  drawShift(context, row, scale, view);
   for (const mark of row.windows) drawWindow(context, row, mark, scale, view);
   for (const bar of row.bars) drawBar(context, row, bar, scale, view);
   context.restore();
   drawLabel(context, row, gutter, view);
   context.strokeStyle = colours.grid;
-  if (row.kind === 'vehicle') {
+  if (row.kind !== 'drone') {
     context.beginPath();
     context.moveTo(0, row.top + 0.5);
     context.lineTo(width, row.top + 0.5);
@@ -143,10 +143,20 @@ function drawRow(context, row, scale, view) {
   context.globalAlpha = 1;
 }
 
+/** Darken when the vehicle of a row doesn't work. */
+function drawShift(context, row, scale, { range, width, colours }) {
+  const [from, until] = shiftOf(row).map((time) =>
+    scale.x(Math.min(Math.max(time, range[0]), range[1])));
+  const gutter = gutterOf(width);
+  context.fillStyle = colours.closed;
+  if (from > scale.x(range[0])) context.fillRect(gutter, row.top, from - gutter, row.height);
+  if (until < scale.x(range[1])) context.fillRect(until, row.top, width - until, row.height);
+}
+
 function drawLabel(context, row, gutter, { colours, dark }) {
   const middle = row.top + row.height / 2 + 1;
   context.textAlign = 'left';
-  context.font = row.kind === 'vehicle' ? colours.font : colours.smallFont;
+  context.font = row.kind === 'drone' ? colours.smallFont : colours.font;
   if (row.kind === 'vehicle') {
     context.fillStyle = vehicleColour(row.vehicle.number, dark);
     context.fillRect(6, row.top + 6, 4, row.height - 12);
@@ -154,7 +164,7 @@ function drawLabel(context, row, gutter, { colours, dark }) {
   context.fillStyle = row.kind === 'vehicle' ? colours.text : colours.faint;
   context.fillText(
     shortened(context, row.label, gutter - 24),
-    row.kind === 'vehicle' ? 16 : 24,
+    row.kind === 'drone' ? 24 : 16,
     middle,
   );
 }

@@ -3,9 +3,13 @@
 import { hover, indexOf, select, settledOf, shownPlan } from '../actions.js';
 import { describe } from '../core/describe.js';
 import { partsOf, spanOf } from '../core/plan.js';
-import { ACTIVITIES, timelineRows } from '../core/timeline.js';
+import { ACTIVITIES, idleRows, timelineRows } from '../core/timeline.js';
+import { layOut } from '../frame.js';
 import { html, useEffect, useLayoutEffect, useMemo, useRef, useState } from '../libraries.js';
 import { store, useStore } from '../store.js';
+import { Edge } from '../views/edge.js';
+import { IconButton } from '../views/icon.js';
+import { Menu } from '../views/menu.js';
 import { move } from '../views/stop-moves.js';
 import { isHere, placeAt } from '../core/moving.js';
 import { standingIn } from '../core/replanning.js';
@@ -21,32 +25,40 @@ const REACH = 10; // pixels around the bar of who is selected, since it may be t
 export function TimelinePane() {
   const entry = useStore(shownPlan);
   const index = indexOf(entry);
-  const rows = useMemo(() => (index ? placeRows(timelineRows(index)) : []), [index]);
+  const rows = useMemo(
+    () => (index ? placeRows([...timelineRows(index), ...idleRows(index)]) : []), [index]);
   const whole = useMemo(() => (index ? padded(spanOf(index)) : [0, 3600]), [index]);
   const [range, setRange] = useState(null);
   useEffect(() => setRange(null), [entry?.number]);
   const shown = range ?? whole;
   const request = useStore((state) => state.request);
   const parts = settledOf(entry, request);
+  const folded = useStore((state) => state.frame.timelineFolded);
   return html`<section class="timeline" aria-label=${t('timeline.title')}>
+    ${!folded && html`<${Edge} name="timeline" range=${[96, 560]} label=${t('timeline.edge')}
+      upward />`}
     <div class="timeline-bar">
       <${Player} index=${index} />
-      <${Legend} isSettled=${parts.size > 0} />
       <span class="zoom">
-        <button type="button" class="quiet" onClick=${() => setRange(zoomed(shown, whole, 0.5))}
-          aria-label=${t('timeline.zoomIn')}>+</button>
-        <button type="button" class="quiet" onClick=${() => setRange(zoomed(shown, whole, 2))}
-          aria-label=${t('timeline.zoomOut')}>\u2212</button>
-        <button type="button" class="quiet" onClick=${() => setRange(null)}>
-          ${t('timeline.whole')}</button>
+        ${!folded && html`<${Menu} id="bars" label=${t('timeline.bars')}>
+          <${Legend} isSettled=${parts.size > 0} /></${Menu}>
+        <${IconButton} name="plus" label=${t('timeline.zoomIn')}
+          onClick=${() => setRange(zoomed(shown, whole, 0.5))} />
+        <${IconButton} name="minus" label=${t('timeline.zoomOut')}
+          onClick=${() => setRange(zoomed(shown, whole, 2))} />
+        <button type="button" class="quiet whole" onClick=${() => setRange(null)}>
+          ${t('timeline.whole')}</button>`}
+        <${IconButton} name=${folded ? 'chevron-up' : 'chevron-down'}
+          label=${folded ? t('timeline.unfold') : t('timeline.fold')}
+          onClick=${() => layOut({ timelineFolded: !folded })} />
       </span>
     </div>
     ${
-      rows.length
+      !folded && (rows.length
         ? html`<${Rows} index=${index} rows=${rows} range=${shown} whole=${whole}
       setRange=${setRange} parts=${parts} now=${nowOf(entry, request)} />`
         : html`<p class="empty">${
-          entry ? t('timeline.unused') : t('timeline.nothing')}</p>`
+          entry ? t('timeline.unused') : t('timeline.nothing')}</p>`)
     }
   </section>`;
 }
@@ -156,6 +168,7 @@ function attach(box, canvas, state) {
   ];
   const resizes = new ResizeObserver(redraw);
   resizes.observe(box);
+  document.fonts.ready.then(redraw);
   draw();
   return () => {
     cancelAnimationFrame(frame);
@@ -184,6 +197,7 @@ function coloursOf(element) {
     wait: value('wait'),
     window: value('window'),
     windowLine: value('window-line'),
+    closed: value('surface-0'),
     late: value('bad'),
     accent: value('accent'),
     font: `12px ${style.fontFamily}`,
@@ -200,7 +214,7 @@ function pointer(box, canvas, state, view) {
   const keyAt = (event) => {
     const { row, bar, onLabel } = hit(state.current.rows, place(event), view());
     if (!row) return null;
-    return onLabel ? row.vehicle.key : (bar?.key ?? null);
+    return onLabel ? (row.vehicle?.key ?? null) : (bar?.key ?? null);
   };
   /** Return who is selected, if at a pointer and free to be put elsewhere: others are panned. */
   const haltAt = (event) => {
@@ -216,6 +230,7 @@ function pointer(box, canvas, state, view) {
     const { row } = hit(rows, place(event), view());
     if (!row) return null;
     const time = scaleOf(range, view().width).time(place(event).x);
+    if (row.kind === 'idle') return { row, time, place: { vehicle: row.name, type: row.type.id } };
     const found = placeAt(row.vehicle, time, drag.halt);
     return found && !isHere(drag.halt, found) ? { row, time, place: found } : null;
   };

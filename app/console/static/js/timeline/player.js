@@ -5,6 +5,7 @@ import { replanFromClock } from '../ordering.js';
 import { spanOf } from '../core/plan.js';
 import { html, useEffect } from '../libraries.js';
 import { store, useStore } from '../store.js';
+import { Icon } from '../views/icon.js';
 import { t } from '../texts.js';
 
 const SPEEDS = [60, 300, 600, 1800, 3600];
@@ -43,8 +44,9 @@ export function Player({ index }) {
   const [start, end] = index ? spanOf(index) : [0, 3600];
   return html`<div class="player">
     <button type="button" disabled=${!index} onClick=${() => togglePlaying(index)}
-      aria-pressed=${playing}>${
-        playing ? t('player.pause') : t('player.play')}</button>
+      aria-pressed=${playing} aria-label=${playing ? t('player.pause') : t('player.play')}>
+      <${Icon} name=${playing ? 'pause' : 'play'} /> <span class="word">${
+        playing ? t('player.pause') : t('player.play')}</span></button>
     <input type="range" min=${start} max=${end} step="10" value=${time ?? start} disabled=${!index}
       aria-label=${t('player.time')} aria-valuetext=${clock(time ?? start)}
       onInput=${(event) => store.set({ time: Number(event.target.value), playing: false })} />

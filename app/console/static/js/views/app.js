@@ -1,4 +1,4 @@
-/** The page: header, map, timeline, panel and dialogs. */
+/** The page: rail, header, panel, map, timeline and dialogs. */
 
 import { closeFailure, isWaiting, shownPlan } from '../actions.js';
 import { whereInWords } from '../core/where.js';
@@ -12,8 +12,8 @@ import { goTo } from './go-to.js';
 import { Header } from './header.js';
 import { KeepingNotice, isToBeTold } from './keeping-notice.js';
 import { Panel } from './panel.js';
+import { Rail } from './rail.js';
 import { Plain, Said } from './said.js';
-import { WarningsBar } from './warnings-bar.js';
 
 const MOST_LISTED = 20;
 
@@ -23,16 +23,28 @@ export function App() {
   const waits = useStore((state) => isWaiting(state) && shownPlan(state) !== null);
   const language = useStore((state) => state.language);
   // Another language is another page: what views keep for themselves is made anew.
-  return html`<main class="console" key=${language} data-waiting=${waits}>
+  return html`<main class="console" key=${language} data-waiting=${waits} ...${useLayout()}>
+    ${ready ? html`<${Rail} />` : html`<nav class="rail"></nav>`}
     <${Header} />
     <${Notice} />
     ${
       ready
-        ? html`<${MapPane} /><${Panel} /><${TimelinePane} />`
+        ? html`<${Panel} /><${MapPane} /><${TimelinePane} />`
         : html`<p class="loading maps">${t('app.loading')}</p>`
     }
     <${Dialogs} />
   </main>`;
+}
+
+/** Return how the desk is laid out, for its style sheet. */
+function useLayout() {
+  const { panel, timeline, folded, timelineFolded, sheet } = useStore((state) => state.frame);
+  return {
+    'data-folded': folded,
+    'data-timeline': timelineFolded ? 'folded' : 'open',
+    'data-sheet': sheet,
+    style: { '--panel-width': `${panel}px`, '--timeline-height': `${timeline}px` },
+  };
 }
 
 /** What went wrong, or that the service is starting. */
@@ -61,7 +73,7 @@ function Notice() {
       </div>
       <button type="button" class="quiet" onClick=${closeFailure}>${t('app.close')}</button></div>`;
   }
-  if (!starting) return tells ? html`<${KeepingNotice} />` : html`<${WarningsBar} />`;
+  if (!starting) return tells && html`<${KeepingNotice} />`;
   return html`<div class="notice starting"
     role="status"><div><strong>${t('app.starting')}</strong>
     ${' '}${starting.detail}</div></div>`;

@@ -5,6 +5,7 @@ import { flightCount } from '../core/drones.js';
 import { duration, km, money, number, percent } from '../core/format.js';
 import { legsInWords } from '../core/legs.js';
 import { costTerms, penaltyOf, trueTerms } from '../core/terms.js';
+import { nameOfVehicle } from '../core/vehicle-labels.js';
 import { html } from '../libraries.js';
 import { useStore } from '../store.js';
 import { DronesWorth } from './drones-worth.js';
@@ -41,7 +42,8 @@ export function CostsTab() {
         <th scope="col" class="number">${t('costs.cost')}</th>
         <th scope="col">${t('costs.works')}</th></tr></thead>
       <tbody>${plan.routes.map(
-        (route) => html`<tr key=${route.vehicle}><th scope="row">${route.vehicle}</th>
+        (route) => html`<tr key=${route.vehicle}>
+          <th scope="row">${nameOfVehicle(route.vehicle)}</th>
         <td class="number">${money(route.cost)}</td><td>${duration(route.working_duration)}</td>
           </tr>`,
       )}

@@ -1,24 +1,22 @@
 /** Customers and depots: a long table, and a form for the one that is selected. */
 
 import { edit, hover, indexOf, select, shownPlan } from '../actions.js';
-import { amounts, clock } from '../core/format.js';
+import { amounts, clock, duration } from '../core/format.js';
 import { freeName } from '../core/changes.js';
+import { vehicleColour } from '../core/palette.js';
 import { doubtedPlaces, placeOf } from '../core/places.js';
-import { renamed } from '../core/relations.js';
 import { saidOf } from '../core/said.js';
 import { windowsInWords, windowsOf } from '../core/windows.js';
+import { nameOfVehicle } from '../core/vehicle-labels.js';
 import { html, useMemo, useState } from '../libraries.js';
-import { cancelOrders } from '../ordering.js';
 import { useStore } from '../store.js';
-import { AddressSearch, DoubtedPlaces, PlaceOf } from './address-search.js';
+import { AddressSearch, DoubtedPlaces } from './address-search.js';
 import { DayFields } from './day-fields.js';
-import { Fields } from './form.js';
 import { LongTable } from './long-table.js';
 import { NewOrder } from './new-order.js';
 import { Name } from './parts.js';
 import { Places, Relations, Shipments } from './places.js';
 import { pasteNames, Pick, PickAll, PickedBar, soughtBy } from './picked-customers.js';
-import { WhyHere } from './why-here.js';
 import { t } from '../texts.js';
 
 /** The tab. */
@@ -27,7 +25,7 @@ export function CustomersTab() {
   const epoch = useStore((state) => state.epoch);
   return html`<${NewOrder} /><${CustomerTable} key=${epoch} request=${request} />
     <${AddressSearch} request=${request} />
-    <${DoubtedPlaces} request=${request} /><${SelectedCustomer} request=${request} />
+    <${DoubtedPlaces} request=${request} />
     <${Shipments} request=${request} /><${Relations} request=${request} />
     <${Places} request=${request} />
     <${DayFields} request=${request} />`;
@@ -52,13 +50,16 @@ function CustomerTable({ request }) {
     () => new Set(doubtedPlaces(request, doubts).map(({ id }) => id)),
     [request.customers, doubts],
   );
+  const columns = useMemo(
+    () => columnsOf(request.customers, broken), [request.customers, broken]);
   const head = html`<tr><th scope="col"><${PickAll} rows=${rows} picked=${picked}
       setPicked=${setPicked} /> ${t('field.name')}</th>
-    <th scope="col" class="number">${t('about.demand')}</th>
-    <th scope="col">${t('about.window')}</th><th scope="col" class="roomy">${t('about.for')}</th>
-    <th scope="col">${t('about.arrival')}</th></tr>`;
+    ${columns.amount && html`<th scope="col" class="number">${t('about.demand')}</th>`}
+    ${columns.window && html`<th scope="col">${t('about.window')}</th>`}
+    ${columns.by && html`<th scope="col" class="roomy">${t('about.for')}</th>`}
+    ${index && html`<th scope="col" class="number">${t('about.arrival')}</th>`}</tr>`;
   return html`<section class="section">
-    <div class="buttons"><h3>${t('customers.count', { count: request.customers.length })}</h3>
+    <div class="buttons find"><h3>${t('customers.count', { count: request.customers.length })}</h3>
       <input type="text" value=${filter} placeholder=${t('customers.find')}
         aria-label=${t('customers.findLabel')}
         onPaste=${(event) => pasteNames(event, setFilter)}
@@ -66,14 +67,15 @@ function CustomerTable({ request }) {
       <button type="button" onClick=${() => addCustomer(request)}>
         ${t('customers.add')}</button></div>
     <${PickedBar} request=${request} picked=${picked} setPicked=${setPicked} />
-    <${LongTable} label=${t('tab.customers')} height=${330} head=${head} rows=${rows}
+    <${LongTable} label=${t('tab.customers')} height=${roomFor()} head=${head} rows=${rows}
       revealed=${rows.findIndex(({ customer }) => selection === `c:${customer.id}`)}
       renderRow=${({
         customer,
         position,
       }, place) => html`<${CustomerRow} key=${position} place=${place} customer=${customer}
         halt=${index?.halts.get(`c:${customer.id}`)} index=${index} errors=${broken.get(position)}
-        doubted=${doubted.has(customer.id)} selected=${selection === `c:${customer.id}`}
+        columns=${columns} doubted=${doubted.has(customer.id)}
+          selected=${selection === `c:${customer.id}`}
           marked=${hovered === `c:${customer.id}`} pick=${html`<${Pick} id=${customer.id}
             picked=${picked} setPicked=${setPicked} />`} />`} />
     ${!request.customers.length && html`<p class="help">${t('customers.none')}</p>`}
@@ -95,27 +97,57 @@ function brokenCells(errors) {
   return cells;
 }
 
-function CustomerRow({ customer, place, halt, index, selected, marked, errors, doubted, pick }) {
+const LEAST_ROOM = 220;
+const AROUND = 380; // pixels that the page has above and below the table
+
+/** Return how high the table may be: most of what is below its head. */
+function roomFor() {
+  return Math.max(window.innerHeight - AROUND, LEAST_ROOM);
+}
+
+/** Return which columns say something of some customers: the others fold away. */
+function columnsOf(customers, broken) {
+  const wrong = new Set([...broken.values()].flatMap((fields) => [...fields.keys()]));
+  const some = (fields, says) => fields.some((field) => wrong.has(field)) || customers.some(says);
+  return {
+    amount: some(['demand'], ({ demand = [] }) => demand.some(Boolean)),
+    window: some(['time_window', 'time_windows'], (customer) => windowsOf(customer).length),
+    by: some(['served_by'], ({ served_by: by = 'either' }) => by !== 'either'),
+  };
+}
+
+function CustomerRow({
+  customer, place, halt, index, columns, selected, marked, errors, doubted, pick,
+}) {
+  const dark = useStore((state) => state.dark);
   const key = `c:${customer.id}`;
   const cell = (field) =>
     errors?.has(field) ? { class: 'invalid', title: errors.get(field) } : {};
-  const arrival = halt ? clock(halt.arrival) : index ? t('customers.notServed') : '';
+  const vehicle = halt?.vehicle;
+  const late = halt?.lateness > 0 && `+${duration(halt.lateness)}`;
   return html`<tr ...${place} data-selected=${selected} data-marked=${marked}
       onMouseEnter=${() => hover(key)}
       onMouseLeave=${() => hover(null)}>
-    <th scope="row" ...${cell('id')}>${pick}
+    <th scope="row" ...${cell('id')}>${pick}<span class="hue"
+        title=${vehicle && nameOfVehicle(vehicle.name)}
+        style=${{ background: vehicle && vehicleColour(vehicle.number, dark) }}></span>
       <button type="button" class="link" aria-pressed=${selected}
       title=${customer.id}
       onClick=${() => select(selected ? null : key)}><${Name}>${customer.id}</${Name}>
       </button>${doubted && html` <span class="late-text" role="img" 
       aria-label=${t('customers.doubtful')} title=${t('customers.doubtful')}>?</span>`}</th>
-    <td ...${cell('demand')} class=${`number ${errors?.has('demand') ? 'invalid' : ''}`}>
-      ${amounts(customer.demand ?? [])}</td>
-    <td ...${cell(customer.time_windows ? 'time_windows' : 'time_window')}>
-      ${windowsInWords(windowsOf(customer))}</td>
-    <td ...${cell('served_by')} class=${`roomy ${errors?.has('served_by') ? 'invalid' : ''}`}>
-      ${t(`customers.by.${customer.served_by ?? 'either'}`)}</td>
-    <td class=${halt?.lateness > 0 || (index && !halt) ? 'late-text' : ''}>${arrival}</td></tr>`;
+    ${columns.amount && html`<td ...${cell('demand')}
+      class=${`number ${errors?.has('demand') ? 'invalid' : ''}`}>
+      ${amounts(customer.demand ?? [])}</td>`}
+    ${columns.window && html`<td
+      ...${cell(customer.time_windows ? 'time_windows' : 'time_window')}>
+      ${windowsOf(customer).length > 0 && windowsInWords(windowsOf(customer))}</td>`}
+    ${columns.by && html`<td ...${cell('served_by')}
+      class=${`roomy ${errors?.has('served_by') ? 'invalid' : ''}`}>
+      ${t(`customers.by.${customer.served_by ?? 'either'}`)}</td>`}
+    ${index && html`<td class=${`number ${late || !halt ? 'late-text' : ''}`}>${
+      halt ? clock(halt.arrival) : t('customers.notServed')}${late && html`<small
+        >${late}</small>`}</td>`}</tr>`;
 }
 
 function addCustomer(request) {
@@ -127,34 +159,4 @@ function addCustomer(request) {
   };
   edit({ ...request, customers: [...request.customers, customer] });
   select(`c:${customer.id}`);
-}
-
-function SelectedCustomer({ request }) {
-  const schemas = useStore((state) => state.schemas);
-  const selection = useStore((state) => state.selection);
-  const errors = useStore((state) => state.errors);
-  const id = selection?.startsWith('c:') ? selection.slice(2) : null;
-  const atError = errors.find(({ keys }) => keys[0] === 'customers' && typeof keys[1] === 'number');
-  const selected = request.customers.findIndex((customer) => customer.id === id);
-  const position = selected >= 0 ? selected : (atError?.keys[1] ?? -1);
-  if (position < 0 || position >= request.customers.length) {
-    return html`<p class="help">${t('customers.select')}</p>`;
-  }
-  const change = (changed) => {
-    const name = changed.customers[position]?.id;
-    const former = request.customers[position].id;
-    edit(name && name !== former ? renamed(changed, former, name) : changed);
-    if (name && name !== id) select(`c:${name}`);
-  };
-  return html`<details class="card" open><summary>${t('where.customer', {
-    id: request.customers[position].id,
-  })}
-      <span class="right"></span></summary>
-    <div class="inside"><${PlaceOf} request=${request} id=${request.customers[position].id} />
-      <${WhyHere} id=${request.customers[position].id} />
-      <${Fields} schema=${schemas.CustomerInput} keys=${['customers', position]} request=${request}
-        onChange=${change} skip=${request.matrices ? [] : ['location_index']} />
-      <div class="buttons"><button type="button" onClick=${() =>
-        cancelOrders([request.customers[position].id])}>${t('customers.remove')}</button></div>
-    </div></details>`;
 }

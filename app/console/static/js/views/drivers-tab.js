@@ -3,6 +3,7 @@
 import { indexOf, settledOf, shownPlan } from '../actions.js';
 import { driverReason, linksByVehicle, standingText } from '../core/dispatches.js';
 import { clock } from '../core/format.js';
+import { nameOfVehicle } from '../core/vehicle-labels.js';
 import {
   endDay,
   followDispatch,
@@ -78,7 +79,8 @@ function OnTheRoad({ dispatch }) {
 }
 
 function Link({ link, vehicle }) {
-  const of = { vehicle: link.vehicle };
+  const name = nameOfVehicle(link.vehicle);
+  const of = { vehicle: name };
   const [shown, setShown] = useState(false);
   const [copied, setCopied] = useState(false);
   const copy = async () => {
@@ -86,7 +88,7 @@ function Link({ link, vehicle }) {
     setCopied(true);
   };
   return html`<li class="card"><header>
-      <strong>${vehicle && html`<${Badge} vehicle=${vehicle} /> `}${link.vehicle}</strong>
+      <strong>${vehicle && html`<${Badge} vehicle=${vehicle} /> `}${name}</strong>
       <span class="right" aria-live="polite">${standingText(link)}</span></header>
     <div class="inside"><div class="buttons">
       ${link.url && link.state === 'open' && html`
@@ -114,7 +116,8 @@ function Failures({ links }) {
   );
   if (!rows.length) return null;
   return html`<section class="section"><h3>${t('drivers.failed')}</h3><ul>${rows.map(
-    ({ key, vehicle, place, reason, time }) => html`<li key=${key}>${place}, ${vehicle},
+    ({ key, vehicle, place, reason, time }) => html`<li key=${key}>${place},
+      ${nameOfVehicle(vehicle)},
       ${' '}${clock(time)}: ${driverReason(reason)}</li>`,
   )}</ul></section>`;
 }

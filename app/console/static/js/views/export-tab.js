@@ -3,7 +3,7 @@
 import { indexOf, settledOf, shownPlan } from '../actions.js';
 import { linksByVehicle } from '../core/dispatches.js';
 import { geoJson, gpx, stopsCsv } from '../core/exports.js';
-import { flightLines, flownLines } from '../core/flights.js';
+import { flownLines } from '../core/flights.js';
 import { asStated } from '../core/times.js';
 import { html } from '../libraries.js';
 import { useStore } from '../store.js';
@@ -28,7 +28,6 @@ export function ExportTab() {
       saveJson('problem.json', asStated(schemas, request, stated))}>
       ${t('take.problemJson')}</button></div></section>`;
   if (!index) return html`${problem}<p class="empty">${t('timeline.nothing')}</p>`;
-  const drawnOf = flightLines(entry.request);
   const legsOf = flownLines(entry.request);
   const parts = settledOf(entry, request);
   const isGeographic = entry.request.coordinate_system === 'geographic';
@@ -46,9 +45,9 @@ export function ExportTab() {
           JSON.stringify(geoJson(index, legsOf)),
         )}>GeoJSON</button></div></section>
     <section class="section"><h3>${t('take.picture')}</h3><div class="buttons">
-      <button type="button" onClick=${() => saveSvg('plan.svg', index, drawnOf)}>
+      <button type="button" onClick=${() => saveSvg('plan.svg', index, legsOf)}>
         SVG</button>
-      <button type="button" onClick=${() => savePng('plan.png', index, drawnOf)}>PNG
+      <button type="button" onClick=${() => savePng('plan.png', index, legsOf)}>PNG
         </button></div></section>
     <${FlightFiles} entry=${entry} />
     <section class="section"><h3>${t('take.drivers')}</h3>
@@ -58,12 +57,13 @@ export function ExportTab() {
       ${!isGeographic && html`<p class="help">${t('take.planar')}</p>`}
       <table><tbody>${index.vehicles.map(
         (vehicle) => html`<tr key=${vehicle.key}>
-        <th scope="row"><${Badge} vehicle=${vehicle} /> ${vehicle.name}</th>
+        <th scope="row"><${Badge} vehicle=${vehicle} /> ${nameOfVehicle(vehicle.name)}</th>
         <td><div class="buttons">
           <button type="button" onClick=${() => print([vehicle])}
-            aria-label=${t('take.printOf', { vehicle: vehicle.name })}>${t('take.print')}</button>
+            aria-label=${t('take.printOf', { vehicle: nameOfVehicle(vehicle.name) })}>${
+              t('take.print')}</button>
           <button type="button" disabled=${!isGeographic} 
-            aria-label=${t('take.gpxOf', { vehicle: vehicle.name })}
+            aria-label=${t('take.gpxOf', { vehicle: nameOfVehicle(vehicle.name) })}
             onClick=${() =>
               save(`${vehicle.name}.gpx`, 'application/gpx+xml', gpx(vehicle, legsOf))}>GPX</button>
         </div></td></tr>`,
@@ -76,6 +76,7 @@ function saveJson(name, value) {
 
 // Few want a picture: what draws it is loaded for who does.
 const pictures = () => import('../core/picture.js');
+import { nameOfVehicle } from '../core/vehicle-labels.js';
 
 async function saveSvg(name, index, legsOf) {
   const { pictureOf, toSvg } = await pictures();

@@ -8,16 +8,34 @@ import { removeIn } from '../core/paths.js';
 import { countZones, PROPOSED_BUFFER_M, withBuffer } from '../core/zones.js';
 import { html, useEffect, useState } from '../libraries.js';
 import { useStore } from '../store.js';
-import { Field, Fields } from './form.js';
+import { Field } from './form.js';
 import { useOpening } from './parts.js';
+import { RuledFields } from './ruled-fields.js';
 import { WindForm } from './wind-form.js';
 import { t } from '../texts.js';
+
+/** What is asked of every type. */
+const EVERYDAY = [
+  'id', 'count', 'names', 'capacity', 'depot', 'shift', 'speed_kmh', 'costs', 'drones',
+];
+
+/** What else there is. */
+const TOPICS = {
+  load: ['pickups', 'lifo', 'max_stops', 'skills'],
+  hours: ['max_working_duration', 'overtime', 'breaks', 'driving_rules', 'max_travel_duration',
+    'max_trips', 'reload_duration', 'reload_depots'],
+  ways: ['start_location', 'start_location_index', 'end', 'profile', 'avoid', 'speed_profile',
+    'max_trip_distance', 'revisits'],
+  flying: ['flies', 'max_sorties', 'max_airborne', 'truck_waits', 'altitude', 'endurance',
+    'max_range', 'max_wind_kmh', 'preset', 'launch_duration', 'recovery_duration', 'turnaround'],
+  energy: ['energy', 'co2_kg_per_km', 'co2_kg_per_kwh'],
+};
 
 /** The tab. */
 export function FleetTab() {
   const request = useStore((state) => state.request);
   const schemas = useStore((state) => state.schemas);
-  const [help, setHelp] = useState(true);
+  const [help, setHelp] = useState(false);
   const [added, setAdded] = useState(null);
   const { properties } = schemas.PlanRequest;
   useEffect(() => {
@@ -114,8 +132,9 @@ function VehicleType({ type, position, request, isNew }) {
     }<span class="right">${t('header.vehicles', { count: type.count })}, ${
       t('fleet.capacity', { amounts: amounts(type.capacity ?? []) }) + drones}</span></summary>
     <div class="inside">
-      <${Fields} schema=${schemas.VehicleTypeInput} keys=${['fleet', position]} request=${request}
-        onChange=${edit} choices=${choices} skip=${skip} />
+      <${RuledFields} schema=${schemas.VehicleTypeInput} keys=${['fleet', position]}
+        everyday=${EVERYDAY} topics=${TOPICS} request=${request} onChange=${edit}
+        choices=${choices} skip=${skip} />
       ${
         request.fleet.length > 1 &&
         html`<div class="buttons"><button type="button" onClick=${() =>

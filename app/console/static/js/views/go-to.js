@@ -1,8 +1,8 @@
 /** Going to where something of the problem is edited. */
 
 import { openTab, select } from '../actions.js';
+import { tabOf } from '../core/rooms.js';
 import { store } from '../store.js';
-import { tabOf } from './panel.js';
 
 /** Return the field at a place, or the nearest that holds it. */
 function nearestField(keys) {
@@ -19,6 +19,9 @@ export function goTo(keys) {
   openTab(tabOf(keys));
   requestAnimationFrame(() =>
     requestAnimationFrame(() => {
+      const rule = /** @type {HTMLButtonElement} */ (
+        document.querySelector(`[data-rule="${keys.slice(0, 3).join('-')}"]`));
+      if (rule?.getAttribute('aria-pressed') === 'false') rule.click();
       const field = nearestField(keys);
       field?.closest('details')?.setAttribute('open', '');
       field?.scrollIntoView({ block: 'center' });

@@ -4,6 +4,7 @@ import { hover, openTab, shownPlan } from '../actions.js';
 import { money, signed } from '../core/format.js';
 import { placeInWords, rulesInWords } from '../core/hands-words.js';
 import { trueCost } from '../core/terms.js';
+import { nameOfVehicle } from '../core/vehicle-labels.js';
 import { sendChange, sendOut } from '../dispatching.js';
 import { isFurther, redoStep, stepBack, stepForth, takeFit, undoStep } from '../hands.js';
 import { html } from '../libraries.js';
@@ -87,7 +88,7 @@ function Fit({ fit }) {
   const close = () => store.set({ fit: null });
   return html`<p><strong>${t('hand.bestFor', { id: customer.id })}</strong>
       ${told?.here && `, ${t('hand.nowWith', {
-        vehicle: told.here.vehicle,
+        vehicle: nameOfVehicle(told.here.vehicle),
         cost: money(told.here.saving.total),
       })}`}</p>
     ${!told && html`<p>${t('hand.trying')}</p>`}

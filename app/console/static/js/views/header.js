@@ -1,60 +1,46 @@
-/** The header: what problem is open, planning, and what came of it. */
+/** The header: what problem is open, what its plan comes to, and planning. */
 
-import { isWaiting, openRequest, shownPlan } from '../actions.js';
-import { flightCount } from '../core/drones.js';
-import { duration, money } from '../core/format.js';
+import { isWaiting, openRequest, openTab, shownPlan } from '../actions.js';
+import { clock, duration, km, money } from '../core/format.js';
+import { fleetSize } from '../core/naming.js';
 import { penaltyOf, trueCost } from '../core/terms.js';
 import { html, useRef } from '../libraries.js';
 import { plan, stop } from '../planning.js';
-import { store, useStore } from '../store.js';
+import { useStore } from '../store.js';
 import { openPlans } from '../keeping/kept.js';
-import { parts, t } from '../texts.js';
+import { t } from '../texts.js';
 import { openFile } from './files.js';
-import { LanguageChoice } from './language-choice.js';
+import { Icon } from './icon.js';
+import { Menu } from './menu.js';
 import { ProblemName } from './problem-name.js';
+import { WarningsChip } from './warnings-chip.js';
 
 const OPENED = '.json,.csv,.tsv,.txt,.xlsx,.xlsm,.xlsb,.xls,.ods,.html,.htm,.xml,.kml,.kmz,.gpx,'
   + '.geojson';
 const SHEET = new URL('../../examples/working-day.xlsx', import.meta.url).href;
-const ICON = new URL('../../icon.svg', import.meta.url).href;
 
 /** The bar at the top. */
 export function Header() {
-  const busy = useStore((state) => !['idle'].includes(state.run.state));
   const ready = useStore((state) => state.request !== null);
-  const goesOn = useStore((state) => Boolean(state.request?.replan));
   return html`<header class="head">
-    <h1><img src=${ICON} alt="" /><span class="word">Tandem</span></h1>
     ${ready && html`<${ProblemName} /><${Opener} />`}
-    <button type="button" class="primary" disabled=${!ready} onClick=${plan}
-      id="plan-button">${goesOn ? t('header.goOn') : t('header.plan')}</button>
-    <button type="button" class="stop" disabled=${!busy} onClick=${stop}>
-      ${t('header.stop')}</button>
     <${Result} />
-    <button type="button" class="quiet" onClick=${() => store.set({ dialog: { name: 'keys' } })}
-      ><${Sign} sign="\u2328" /><span class="word">${t('header.keys')}</span></button>
-    <button type="button" class="quiet" onClick=${switchTheme}
-      ><${Sign} sign="\u25d0" /><span class="word"><${ThemeName} /></span></button>
-    <${LanguageChoice} />
-    <a href="guide/"><${Sign} sign="?" /><span class="word">${t('header.guide')}</span></a>
-    <a href="docs">API</a>
+    ${ready && html`<${WarningsChip} />`}
+    <${PlanButton} />
   </header>`;
 }
 
-/** What stands for a word where there is little room; it is read out all the same. */
-function Sign({ sign }) {
-  return html`<span class="sign" aria-hidden="true">${sign}</span>`;
-}
-
-function ThemeName() {
-  return useStore((state) => state.dark) ? t('header.light') : t('header.dark');
-}
-
-/** Change between light and dark, and remember it. */
-export function switchTheme() {
-  const theme = store.get().dark ? 'light' : 'dark';
-  localStorage.setItem('tandem-theme', theme);
-  document.documentElement.dataset.theme = theme;
+/** Plans; while it does, stops. */
+function PlanButton() {
+  const ready = useStore((state) => state.request !== null);
+  const state = useStore(({ run }) => run.state);
+  const goesOn = useStore(({ request }) => Boolean(request?.replan));
+  if (state !== 'idle') {
+    return html`<button type="button" key="stop" class="primary stop" onClick=${stop}
+      disabled=${state === 'stopping'}><${Icon} name="square" /> ${t('header.stop')}</button>`;
+  }
+  return html`<button type="button" key="plan" class="primary" disabled=${!ready} onClick=${plan}
+    id="plan-button">${goesOn ? t('header.goOn') : t('header.plan')}</button>`;
 }
 
 /** Open the spreadsheet that shows what columns are understood. */
@@ -66,32 +52,27 @@ async function openSheet() {
 function Opener() {
   const examples = useStore((state) => state.examples);
   const input = useRef(null);
-  const choose = (event) => {
-    const { value } = event.target;
-    event.target.value = '';
-    if (value === SHEET) return openSheet();
-    const example = examples.find(({ name }) => name === value);
+  const open = (example) => {
     openRequest(example.request, { name: example.name, isSafe: true });
     return plan();
   };
-  return html`<div class="problem">
-    <select aria-label=${t('header.example')} onChange=${choose} value="">
-      <option value="" disabled hidden>${t('header.examples')}</option>
-      ${examples.map(({ name, summary }) => html`<option key=${name}
-        value=${name}>${name}: ${summary}</option>`)}
-      <option value=${SHEET}>${t('header.exampleSheet')}</option>
-    </select>
-    <button type="button" onClick=${() => input.current.click()}>
-      ${t('header.file')}</button>
-    <button type="button" id="saved-plans" onClick=${openPlans}>
-      ${t('header.saved')}</button>
+  const entry = (id, onClick, children) => html`<button type="button" key=${id} id=${id}
+    popovertarget="open-menu" popovertargetaction="hide" onClick=${onClick}>${children}</button>`;
+  return html`<${Menu} id="open-menu" name=${t('header.open')} label=${html`<${Icon}
+      name="folder-open" /><span class="word">${t('header.open')}</span>`}>
+    ${entry('open-file', () => input.current.click(), t('header.file'))}
+    ${entry('saved-plans', openPlans, t('header.saved'))}
+    <h3>${t('header.examples')}</h3>
+    ${examples.map((example) => entry(`example-${example.name}`, () => open(example),
+      html`<strong>${example.name}</strong> ${example.summary}`))}
+    ${entry('example-sheet', openSheet, t('header.exampleSheet'))}
+    </${Menu}>
     <input type="file" hidden ref=${input} id="file-input" aria-label=${t('header.fileInput')}
       accept=${OPENED}
       onChange=${(event) => {
         openFile(event.target.files[0]);
         event.target.value = '';
-      }} />
-  </div>`;
+      }} />`;
 }
 
 /** Seconds that are planned without telling how long it takes. */
@@ -134,21 +115,25 @@ function Result() {
   </div>`;
 }
 
+/** What the plan comes to; each figure opens what it sums up. */
 function Totals({ entry }) {
-  const { summary } = entry.plan;
+  const { request, plan: { routes, summary } } = entry;
   const out = summary.customers - summary.served;
   const penalty = penaltyOf(entry);
-  return html`<span>${parts('header.cost', {
-      sum: html`<strong id="total-cost">${money(trueCost(entry))}</strong>`,
-    })}</span>
-    ${penalty > 0 && html`<span id="total-penalty" title=${t('header.penaltyHelp')}>${
-      t('header.penalty', { sum: money(penalty) })}</span>`}
-    <span class="served">${t('header.served', {
+  const ends = routes.flatMap(({ trips }) => trips.at(-1)?.stops.at(-1)?.arrival ?? []);
+  const chip = (tab, text, others) => html`<button type="button" class="chip" ...${others}
+    onClick=${() => openTab(tab)}>${text}</button>`;
+  return html`${chip('costs', html`<strong id="total-cost">${money(trueCost(entry))}</strong>`,
+      { title: penalty > 0 ? t('header.penaltyHelp', { sum: money(penalty) }) : null,
+        'aria-label': t('header.cost', { sum: money(trueCost(entry)) }) })}
+    ${chip(out > 0 ? 'unassigned' : 'customers', html`<span class="served">${t('header.served', {
       served: String(summary.served),
       customers: String(summary.customers),
-    })}</span>
-    ${out > 0 && html`<span class="out">${t('header.out', { count: out })}</span>`}
-    <span class="least">${t('header.vehicles', { count: summary.vehicles })}</span>
-    <span class="least">${t('routes.trips', { count: summary.trips })}</span>
-    <span class="least">${t('header.flights', { count: flightCount(entry) })}</span>`;
+    })}</span>`)}
+    ${out > 0 && chip('unassigned', html`<span class="out">${
+      t('header.out', { count: out })}</span>`)}
+    ${chip('routes', t('header.used', {
+      count: fleetSize(request.fleet), used: String(summary.vehicles) }))}
+    ${chip('routes', km(summary.distance + summary.drone_distance))}
+    ${ends.length > 0 && chip('replan', t('header.until', { time: clock(Math.max(...ends)) }))}`;
 }

@@ -2,6 +2,7 @@
 
 import { shownPlan } from '../actions.js';
 import { idleAtHubs, idleCarriers, idleInWords } from '../core/idle-drones.js';
+import { nameOfVehicle } from '../core/vehicle-labels.js';
 import { askIdle, IDLE, toldOf } from '../explaining.js';
 import { html, useEffect } from '../libraries.js';
 import { store, useStore } from '../store.js';
@@ -29,7 +30,7 @@ export function IdleDrones({ vehicle = null }) {
   const isOpen = (!answer || answer.state === 'failed') && !isToBeAsked;
   const told = new Map(answer?.told?.idle_drones.map((each) => [each.vehicle, each]));
   return html`<ul class="idle-drones">${names.map((name) => html`<li key=${name}>${
-    t('idleDrones.idle', { vehicle: name })}${told.has(name) && html` ${
+    t('idleDrones.idle', { vehicle: nameOfVehicle(name) })}${told.has(name) && html` ${
     idleInWords(told.get(name))}`}</li>`)}${hubs.map(({ type, count, all }) => html`<li
       key=${`hub ${type}`}>${t('idleDrones.ofHub', { type, count, all })}</li>`)}</ul>
     ${names.length > 0 && isOpen && html`<button type="button" class="link" disabled=${!idle}

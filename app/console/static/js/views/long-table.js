@@ -12,7 +12,7 @@ const SPARE = 8; // rows on either side of those in view
  *
  * @param renderRow of a row and the attributes that its `tr` needs
  */
-export function LongTable({ head, rows, height, rowHeight = 28, label, renderRow, revealed = -1 }) {
+export function LongTable({ head, rows, height, rowHeight = 36, label, renderRow, revealed = -1 }) {
   const [top, setTop] = useState(0);
   const [focused, setFocused] = useState(-1);
   const element = useRef(null);

@@ -1,19 +1,24 @@
-/** The panel beside the map: the problem, its plan, and what else can be asked. */
+/** The panel beside the map: what is in the room that is open. */
 
 import { openTab, shownPlan } from '../actions.js';
-import { html, useEffect, useRef } from '../libraries.js';
+import { ROOMS, roomOf } from '../core/rooms.js';
+import { layOut, SHEETS } from '../frame.js';
+import { html } from '../libraries.js';
 import { store, useStore } from '../store.js';
 import { ChangesTab } from './changes-tab.js';
 import { CostsTab } from './costs-tab.js';
 import { CustomersTab } from './customers-tab.js';
+import { Details } from './details.js';
 import { DronesLine } from './drones-line.js';
 import { DriversTab } from './drivers-tab.js';
+import { Edge } from './edge.js';
 import { FleetTab } from './fleet-tab.js';
 import { HandBar } from './hand-bar.js';
 import { later } from './later.js';
 import { ReplanTab } from './replan-tab.js';
 import { RoutesTab } from './routes-tab.js';
 import { SolveTab } from './solve-tab.js';
+import { nextOf } from './tab-list.js';
 import { t } from '../texts.js';
 
 const ExportTab = later(async () => (await import('./export-tab.js')).ExportTab);
@@ -22,8 +27,8 @@ const UnassignedTab = later(
   async () => (await import('./unassigned-tab.js')).UnassignedTab,
 );
 
-/** Views by tab, in order; the digit of each of the first ten, 0 for the tenth, is its shortcut. */
-export const TABS = {
+/** Views by tab. */
+const TABS = {
   customers: CustomersTab,
   fleet: FleetTab,
   solve: SolveTab,
@@ -37,65 +42,62 @@ export const TABS = {
   drivers: DriversTab,
 };
 
-/** Parts of a problem that the customers' tab has. */
-const OF_CUSTOMERS = new Set(['customers', 'shipments', 'depots', 'launch_sites', 'relations',
-  'incompatible_goods', 'coordinate_system', 'planar_unit', 'planar_rounding']);
-
-/** Return the tab where a place of the request is edited. */
-export function tabOf(keys) {
-  if (OF_CUSTOMERS.has(keys[0])) return 'customers';
-  if (keys[0] === 'replan') return 'replan';
-  return keys[0] === 'options' ? 'solve' : 'fleet';
-}
-
-/** The tabs and the one that is open. */
+/** The room that is open, what is selected beside it, and the edge between both. */
 export function Panel() {
   const tab = useStore((state) => state.tab);
-  const errors = useStore((state) => state.errors);
-  const unassigned = useStore((state) => shownPlan(state)?.plan.unassigned.length ?? 0);
-  const counts = Object.fromEntries(
-    Object.keys(TABS).map((name) => [
-      name,
-      errors.filter(({ keys }) => tabOf(keys) === name).length,
-    ]),
-  );
-  counts.unassigned = unassigned;
-  const opened = useRef(tab);
-  useEffect(() => {
-    if (opened.current === tab) return;
-    opened.current = tab;
-    document.getElementById(`tab-${tab}`).scrollIntoView({ block: 'nearest', inline: 'nearest' });
-  }, [tab]);
+  const room = roomOf(tab);
   const View = TABS[tab];
   return html`<aside class="panel" aria-label=${t('panel.title')}>
-    <div class="tabs" role="tablist" aria-label=${t('panel.tabs')}
-      onKeyDown=${onKey}>
-      ${Object.keys(TABS).map(
-        (name) => html`<button type="button" role="tab"
-        key=${name} id=${`tab-${name}`} aria-controls="tab-body" aria-selected=${tab === name}
-        tabindex=${tab === name ? 0 : -1} onClick=${() => openTab(name)}>${t(`tab.${name}`)}${
-          counts[name] > 0 && html`<span class="count">${counts[name]}</span>`
-        }</button>`,
-      )}
+    <${Sheet} />
+    <div class="room" id="panel" role="tabpanel" aria-labelledby=${`room-${room}`}>
+      <${RoomHead} room=${room} tab=${tab} />
+      <${DronesLine} /><${HandBar} />
+      <div class="tab" tabindex="0" key=${tab} role="region" aria-label=${t(`tab.${tab}`)}>
+        <${View} /></div>
     </div>
-    <${DronesLine} /><${HandBar} />
-    <div class="tab" role="tabpanel" id="tab-body" aria-labelledby=${`tab-${tab}`} tabindex="0"
-      key=${tab}><h2 class="visually-hidden">${t(`tab.${tab}`)}</h2><${View} /></div>
+    <${Edge} name="panel" range=${[320, 640]} label=${t('panel.edge')} />
+    <${Details} />
   </aside>`;
 }
 
-function onKey(event) {
-  const names = Object.keys(TABS);
-  const position = names.indexOf(store.get().tab);
-  const next = {
-    ArrowLeft: position - 1,
-    ArrowRight: position + 1,
-    Home: 0,
-    End: names.length - 1,
+/** The title of a room, and its tabs if it has several. */
+function RoomHead({ room, tab }) {
+  const { tabs } = ROOMS[room];
+  const out = useStore((state) => shownPlan(state)?.plan.unassigned.length ?? 0);
+  const onKey = (event) => {
+    const next = nextOf(event, tabs, store.get().tab);
+    if (!next) return;
+    openTab(next);
+    requestAnimationFrame(() => document.getElementById(`tab-${next}`).focus());
   };
-  if (!(event.key in next)) return;
-  event.preventDefault();
-  const name = names[(next[event.key] + names.length) % names.length];
-  openTab(name);
-  requestAnimationFrame(() => document.getElementById(`tab-${name}`).focus());
+  return html`<header class="room-head"><h2>${t(`room.${room}`)}</h2>
+    ${tabs.length > 1 && html`<div class="tabs" role="tablist" aria-label=${t('panel.tabs')}
+      onKeyDown=${onKey}>${tabs.map((name) => html`<button type="button" role="tab" key=${name}
+        id=${`tab-${name}`} aria-selected=${tab === name} tabindex=${tab === name ? 0 : -1}
+        onClick=${() => openTab(name)}>${t(`tab.${name}`)}${
+          name === 'unassigned' && out > 0 && html`<span class="count">${out}</span>`
+        }</button>`)}</div>`}
+  </header>`;
+}
+
+/** What a phone's sheet is taken by: a click or a drag brings it to another height. */
+function Sheet() {
+  const sheet = useStore((state) => state.frame.sheet);
+  const go = (steps) => {
+    const next = Math.min(Math.max(SHEETS.indexOf(sheet) + steps, 0), SHEETS.length - 1);
+    layOut({ sheet: SHEETS[next] });
+  };
+  const drag = (event) => {
+    const { clientY: from, currentTarget: grip } = event;
+    grip.setPointerCapture(event.pointerId);
+    grip.onpointerup = ({ clientY: to }) => {
+      grip.onpointerup = null;
+      const steps = Math.round((from - to) / (window.innerHeight / 3));
+      if (Math.abs(to - from) < 8) layOut({ sheet: sheet === 'half' ? 'full' : 'half' });
+      else go(steps || Math.sign(from - to));
+    };
+  };
+  const press = ({ key }) => go({ ArrowUp: 1, Enter: 1, ArrowDown: -1 }[key] ?? 0);
+  return html`<button type="button" class="sheet-grip" aria-label=${t('panel.sheet')}
+    onPointerDown=${drag} onKeyDown=${press}></button>`;
 }

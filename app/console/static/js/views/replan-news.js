@@ -4,6 +4,7 @@ import { edit, undo } from '../actions.js';
 import { giveWindows } from '../core/changes.js';
 import { requestDifferences } from '../core/differences.js';
 import { choicesOf, fromNothing, setPinned } from '../core/replanning.js';
+import { nameOfVehicle } from '../core/vehicle-labels.js';
 import { html } from '../libraries.js';
 import { takeTool } from '../map/draw-bar.js';
 import { cancelOrders } from '../ordering.js';
@@ -50,7 +51,8 @@ function SelectedOrder({ request }) {
   if (!customer) {
     return html`<p class="help">${t('news.select')}</p>`;
   }
-  const { vehicle, isPlanned, mayPin, mayCancel } = choicesOf(request, id);
+  const { isPlanned, mayPin, mayCancel, ...choices } = choicesOf(request, id);
+  const vehicle = choices.vehicle && nameOfVehicle(choices.vehicle);
   const isPinned = (request.replan.pinned ?? []).includes(id);
   return html`<div class="card"><header><strong>${id}</strong>
       <span class="right">${

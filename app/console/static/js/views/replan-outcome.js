@@ -5,6 +5,7 @@ import { clock } from '../core/format.js';
 import { getIn, parsePath } from '../core/paths.js';
 import { isDrone } from '../core/replanning.js';
 import { saidOf } from '../core/said.js';
+import { nameOfVehicle } from '../core/vehicle-labels.js';
 import { html } from '../libraries.js';
 import { parts, t } from '../texts.js';
 
@@ -42,8 +43,9 @@ export function Outcome({ entry }) {
   </section>`;
 }
 
-function inWords(plan, { vehicle, trip, stop }) {
-  const { trips } = plan.routes.find((route) => route.vehicle === vehicle);
+function inWords(plan, { vehicle: of, trip, stop }) {
+  const { trips } = plan.routes.find((route) => route.vehicle === of);
+  const vehicle = nameOfVehicle(of);
   const { stops } = trips[trip];
   const place = stops[stop];
   const number = trip + 1;

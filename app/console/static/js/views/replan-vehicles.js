@@ -2,6 +2,7 @@
 
 import { edit, indexOf } from '../actions.js';
 import { setIn } from '../core/paths.js';
+import { nameOfVehicle } from '../core/vehicle-labels.js';
 import {
   basisRoutes,
   dronesOnTheWay,
@@ -65,7 +66,7 @@ export function Vehicles({ request, basis, errors }) {
 function Row({ row, request }) {
   const { route, progress, open, vehicle, position, errors } = row;
   const { pinned = [], pin_all: pinAll, freeze_before: now } = request.replan;
-  const name = route.vehicle;
+  const name = nameOfVehicle(route.vehicle);
   const keepsAll = pinAll || (open.length > 0 && open.every((id) => pinned.includes(id)));
   const place = progress.isBroken ? t('replan.isBroken') : whereabouts(route, progress, now ?? -1);
   const left = progress.isBroken

@@ -1,26 +1,22 @@
 /** Routes: vehicles, their trips, and every stop and flight of these. */
 
 import { indexOf, shownPlan } from '../actions.js';
-import { describe, noteOf } from '../core/describe.js';
+import { noteOf } from '../core/describe.js';
 import {
   amounts, clock, duration, km, money, number, percent, timeWindow,
 } from '../core/format.js';
-import { flightOfSortie, flightOfTrip } from '../core/height-profile.js';
 import { partsOf } from '../core/plan.js';
 import { vehicleColour } from '../core/palette.js';
 import { customersOf } from '../core/replanning.js';
-import { titleOfVehicle } from '../core/vehicle-labels.js';
+import { nameOfVehicle, titleOfVehicle } from '../core/vehicle-labels.js';
 import { isVisit } from '../core/visits.js';
 import { html, useEffect, useState } from '../libraries.js';
 import { useStore } from '../store.js';
 import { useSavesNothing } from './drones-worth.js';
 import { setLocked } from '../hands.js';
-import { HeightProfile } from './height-profile.js';
 import { IdleDrones } from './idle-drones.js';
 import { dropOn, Grip } from './list-drag.js';
-import { Badge, Facts, linked, SelectButton, ShareBar } from './parts.js';
-import { StopMoves } from './stop-moves.js';
-import { WhyHere } from './why-here.js';
+import { Badge, linked, SelectButton, ShareBar } from './parts.js';
 import { t } from '../texts.js';
 
 /** Vehicles are unfolded at first if there are fewer. */
@@ -31,33 +27,11 @@ export function RoutesTab() {
   const index = indexOf(useStore(shownPlan));
   if (!index) return html`<p class="empty">${t('timeline.nothing')}</p>`;
   if (!index.vehicles.length) return html`<p class="empty">${t('timeline.unused')}</p>`;
-  return html`<${Selected} index=${index} /><${Rates} index=${index} />
+  return html`<${Rates} index=${index} />
     ${index.vehicles.map(
       (vehicle) => html`<${Vehicle} key=${vehicle.key} index=${index}
       vehicle=${vehicle} />`,
     )}`;
-}
-
-function Selected({ index }) {
-  const selection = useStore((state) => state.selection);
-  const request = useStore((state) => state.request);
-  const about = describe(request, index, selection);
-  if (!about)
-    return html`<p class="help">${t('routes.select')}</p>`;
-  const flight = flightOf(index, selection);
-  return html`<section class="card"><header><strong>${about.title}</strong></header>
-    <div class="inside"><${Facts} facts=${about.facts} />
-      ${flight && html`<${HeightProfile} flight=${flight} rules=${index.plan.rules} />`}
-      ${selection.startsWith('c:') && html`<${StopMoves} id=${selection.slice(2)} />
-        <${WhyHere} id=${selection.slice(2)} />`}
-    </div></section>`;
-}
-
-/** Return the flight that a key names, null if it names none. */
-function flightOf(index, key) {
-  const { sortie, trip } = key[0] === 's' || key[0] === 't' ? partsOf(index, key) : {};
-  if (sortie) return flightOfSortie(sortie);
-  return trip?.vehicle.flies ? flightOfTrip(trip) : null;
 }
 
 function Rates({ index }) {
@@ -130,7 +104,7 @@ function LockAll({ vehicle }) {
   const ids = customersOf(vehicle.route);
   const isLocked = ids.length > 0 && ids.every((id) => locks.includes(id));
   return html`<div class="buttons"><button type="button" aria-pressed=${isLocked}
-    aria-label=${t('routes.lockOf', { vehicle: vehicle.name })}
+    aria-label=${t('routes.lockOf', { vehicle: nameOfVehicle(vehicle.name) })}
     onClick=${() => setLocked(ids, !isLocked)}>${
       isLocked ? t('routes.allLocked') : t('routes.lockAll')}</button>
     </div>`;
@@ -140,6 +114,11 @@ function Trip({ index, trip }) {
   const selection = useStore((state) => state.selection);
   const hovered = useStore((state) => state.hover);
   const { reply } = trip;
+  const halts = [...trip.stops, ...trip.sorties.flatMap(({ visits }) => visits)];
+  const columns = {
+    window: halts.some((halt) => isVisit(halt) && windowOf(halt)),
+    late: halts.some(({ lateness }) => lateness > 0),
+  };
   return html`<div class="section"><h4><${SelectButton}
     of=${trip.key}>${t('routes.tripNumber', { number: trip.index + 1 })}</${SelectButton}>
       ${' '}<span class="help">${[
@@ -153,25 +132,31 @@ function Trip({ index, trip }) {
           : []),
       ].join(', ')}</span></h4>
     <table><thead><tr><th scope="col">${t('routes.stop')}</th>
-      <th scope="col">${t('about.arrival')}</th><th scope="col">${t('about.window')}</th>
-      <th scope="col">${t('routes.late')}</th>
+      <th scope="col">${t('about.arrival')}</th>
+      ${columns.window && html`<th scope="col">${t('about.window')}</th>`}
+      ${columns.late && html`<th scope="col">${t('routes.late')}</th>`}
       <th scope="col" class="number">${t('about.loaded')}</th></tr></thead>
     <tbody>${trip.stops.map(
       (halt) => html`
       <${Stop} key=${halt.key} index=${index} halt=${halt} selection=${selection}
-        hovered=${hovered} />
+        hovered=${hovered} columns=${columns} />
       ${trip.sorties
         .filter((sortie) => sortie.from === halt)
         .map(
           (sortie) => html`<${Sortie}
         key=${sortie.key} index=${index} sortie=${sortie} selection=${selection}
-          hovered=${hovered} />`,
+          hovered=${hovered} columns=${columns} />`,
         )}`,
     )}
     </tbody></table></div>`;
 }
 
-function Stop({ index, halt, selection, hovered }) {
+/** Return the window of a halt in words, an empty text without one. */
+function windowOf({ window }) {
+  return window && (window.earliest > 0 || window.latest != null) ? timeWindow(window) : '';
+}
+
+function Stop({ index, halt, selection, hovered, columns }) {
   const isLocked = useStore((state) => state.locks).includes(halt.id);
   return html`<tr class=${halt.lateness > 0 ? 'late' : ''} ...${dropOn(halt)}
     ...${linked(index, halt.key, selection, hovered)}>
@@ -182,12 +167,13 @@ function Stop({ index, halt, selection, hovered }) {
         && html` <span class="help">${noteOf(halt)}</span>`}</th>
     <td>${clock(halt.arrival)}${halt.waiting > 0 && html` <span
       class="help">+${duration(halt.waiting)}</span>`}</td>
-    <td>${isVisit(halt) ? timeWindow(halt.window) : ''}</td>
-    <td class="lateness">${halt.lateness > 0 ? duration(halt.lateness) : ''}</td>
+    ${columns.window && html`<td>${isVisit(halt) ? windowOf(halt) : ''}</td>`}
+    ${columns.late && html`<td class="lateness">${
+      halt.lateness > 0 ? duration(halt.lateness) : ''}</td>`}
     <td class="number">${amounts(halt.load)}</td></tr>`;
 }
 
-function Sortie({ index, sortie, selection, hovered }) {
+function Sortie({ index, sortie, selection, hovered, columns }) {
   const { reply } = sortie;
   const isUseless = useSavesNothing(sortie);
   const drone = sortie.drone.slice(sortie.drone.lastIndexOf('/') + 1);
@@ -203,6 +189,6 @@ function Sortie({ index, sortie, selection, hovered }) {
           t('routes.useless')}</strong>`}</td></tr>
     ${sortie.visits.map(
       (halt) => html`<${Stop} key=${halt.key} index=${index} halt=${halt}
-      selection=${selection} hovered=${hovered} />`,
+      selection=${selection} hovered=${hovered} columns=${columns} />`,
     )}`;
 }

@@ -1,6 +1,7 @@
 /** Keys that work everywhere but in fields. */
 
 import { indexOf, openTab, redo, select, shownPlan, undo } from '../actions.js';
+import { ROOMS } from '../core/rooms.js';
 import { redoStep, undoStep } from '../hands.js';
 import { openPlans, save } from '../keeping/kept.js';
 import { replanFromClock } from '../ordering.js';
@@ -8,8 +9,7 @@ import { improvePlan, plan, stop } from '../planning.js';
 import { store } from '../store.js';
 import { togglePlaying } from '../timeline/player.js';
 import { focusFirst } from './focus.js';
-import { switchTheme } from './header.js';
-import { TABS } from './panel.js';
+import { switchTheme } from './settings.js';
 
 /** Where the browser keeps that single keys do nothing. */
 const KEPT = 'tandem-single-keys';
@@ -91,7 +91,7 @@ function actionAlone({ key, target }) {
   if (!singleKeysWork()) return null;
   if (key === ' ' && target.matches('button, summary, a, input')) return null;
   if (/^\d$/.test(key)) {
-    const tab = Object.keys(TABS)[(Number(key) + 9) % 10];
+    const [tab] = Object.values(ROOMS)[Number(key) - 1]?.tabs ?? [];
     return tab && (() => openTab(tab));
   }
   return ACTIONS[key.length === 1 ? key.toLowerCase() : key];

@@ -4,6 +4,7 @@ import { indexOf, shownPlan } from '../actions.js';
 import { moveInWords } from '../core/hands-words.js';
 import { placeAt, placeBeside, vehiclesFor } from '../core/moving.js';
 import { leftOutOf, shipmentOf } from '../core/visits.js';
+import { nameOfVehicle } from '../core/vehicle-labels.js';
 import { askFit, moveCustomerTo, setLocked } from '../hands.js';
 import { html } from '../libraries.js';
 import { useStore } from '../store.js';
@@ -68,5 +69,6 @@ function ToVehicle({ index, id, halt }) {
   return html`<select aria-label=${t('stop.give', { id })} value="" onChange=${give}>
     <option value="" disabled hidden>${t('stop.toVehicle')}</option>
     ${others.map(({ name, vehicle }, position) => html`<option key=${name}
-      value=${position}>${vehicle ? name : t('stop.unused', { name })}</option>`)}</select>`;
+      value=${position}>${vehicle ? nameOfVehicle(name)
+        : t('stop.unused', { name: nameOfVehicle(name) })}</option>`)}</select>`;
 }
