@@ -7,7 +7,9 @@ import pytest
 from playwright.sync_api import Locator, Page, expect
 
 from tests.app.formats.sheets import makes
-from tests.console.steps import open_example, open_file, open_tab, planned, state
+from tests.console.steps import (
+    open_example, open_file, open_tab, planned, show_rules, state,
+)
 from tests.console.test_everyone import findings
 
 pytestmark = pytest.mark.slow
@@ -224,6 +226,7 @@ def test_what_drivers_are_told_is_edited_line_by_line(page: Page) -> None:
     use(page)
     planned(page, "2 of 2 served")
     page.get_by_role("button", name="Anna", exact=True).first.click()
+    show_rules(page)
     field = page.locator("#field-customers-0-info")
     expect(field).to_have_value("notes: ring twice")
     field.fill("notes: ring once\nphone: 044 123")
