@@ -160,6 +160,10 @@ void try_trips_of(const Insertion& insertion, Int slot) {
         !goods_may_follow(data, now, slot, node) || !may_take_off_again(data, now, k)) {
         return;
     }
+    const Surcharge surcharge(
+        best, best.weight > 0.0
+                  ? best.weight * plan_cost_of_trip(data, now, best.shares, slot, node)
+                  : 0.0);
     if (is_paired(data.pair, node)) {
         if (data.can(k, 0, node)) try_pair_trips(insertion, slot);
         return;
@@ -173,6 +177,7 @@ void try_trips_of(const Insertion& insertion, Int slot) {
     }
     if (data.can(k, 1, node)) offer_flight_trips(insertion, slot);
     if (has_halts(data) && data.can(k, 1, node)) offer_halt_trips(insertion, slot);
+    if (best.weight > 0.0) take_cheapest(insertion);
 }
 
 // Lists a customer behind, and on flights from, the stops beside another, on its trip.

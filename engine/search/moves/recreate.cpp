@@ -134,7 +134,7 @@ void find_anywhere(const Insertion& insertion, bool opens, bool scan_all) {
     }
     if (best.cost == infeasible) {
         find_place(insertion);
-        if (best.cost == infeasible || uniform(searcher.rng) < more_trips) {
+        if (best.cost == infeasible || best.weight > 0.0 || uniform(searcher.rng) < more_trips) {
             tried = searcher.count->active;
         }
     }

@@ -51,6 +51,29 @@ double share_of(const ProblemData& data, const Fleet& fleet, Int slot) {
     }
 }
 
+// A trip that serves a customer alone: how long it takes at least, and its share of the work.
+struct Alone {
+    Int working;
+    double share;
+};
+
+Alone alone(const ProblemData& data, Int k, Int node) {
+    const VehicleType& type = data.type[k];
+    const TravelLegs legs = legs_of(data.leg, type.travel);
+    const Leg out = leg(legs, type.begins_at, node), home = leg(legs, node, type.ends_at);
+    const Int working = out.duration + data.place[0][node].service_duration() + home.duration;
+    switch (measure_of(data.fairness)) {
+        case Measure::stops:
+            return {working, 1.0};
+        case Measure::load:
+            return {working, double(amount_at(data, node))};
+        case Measure::distance:
+            return {working, double(out.distance + home.distance)};
+        default:
+            return {working, double(working)};
+    }
+}
+
 }  // namespace
 
 Shares shares_of(const ProblemData& data, const Searcher& searcher) {
@@ -87,22 +110,25 @@ double plan_cost_of_joining(const ProblemData& data, const Fleet& fleet, const S
     if (measure_of(data.fairness) == Measure::load) more = amount_at(data, node);
     if (measure_of(data.fairness) == Measure::duration) more = longer;
     const double before = share_before(data.type[route.type]) + share;
-    const Shares grown = with_more(shares, before, more, route.end + Int(longer));
+    const Shares grown = with_more(shares, before, more, {route.end, route.end + Int(longer)});
+    return fairness_cost(data.fairness, grown) - fairness_cost(data.fairness, shares);
+}
+
+double plan_cost_of_trip(const ProblemData& data, const Fleet& fleet, const Shares& shares,
+                         Int slot, Int node) {
+    const Route& route = fleet.route[slot];
+    const VehicleType& type = data.type[route.type];
+    const Alone trip = alone(data, route.type, node);
+    const double before = share_before(type) + share_of(data, fleet, slot);
+    const Shares grown = with_more(shares, before, trip.share,
+                                   {route.end, route.end + type.reload_duration + trip.working});
     return fairness_cost(data.fairness, grown) - fairness_cost(data.fairness, shares);
 }
 
 double plan_cost_of_opening(const ProblemData& data, const Shares& shares, Int k, Int node) {
     const VehicleType& type = data.type[k];
-    const TravelLegs legs = legs_of(data.leg, type.travel);
-    const Leg out = leg(legs, type.begins_at, node), home = leg(legs, node, type.ends_at);
-    const Int service = data.place[0][node].service_duration();
-    const Int working = out.duration + service + home.duration;
-    double share = double(working);
-    if (measure_of(data.fairness) == Measure::stops) share = 1.0;
-    if (measure_of(data.fairness) == Measure::load) share = amount_at(data, node);
-    if (measure_of(data.fairness) == Measure::distance)
-        share = double(out.distance + home.distance);
-    const Shares grown = with_route(shares, type, share, type.shift_earliest + working);
+    const Alone trip = alone(data, k, node);
+    const Shares grown = with_route(shares, type, trip.share, type.shift_earliest + trip.working);
     return fairness_cost(data.fairness, grown) - fairness_cost(data.fairness, shares);
 }
 

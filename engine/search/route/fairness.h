@@ -18,6 +18,10 @@ double plan_cost(const ProblemData& data, const Searcher& searcher);
 double plan_cost_of_joining(const ProblemData& data, const Fleet& fleet, const Shares& shares,
                             Int slot, Int node);
 
+// Estimate by how much that grows if a route serves a customer alone on another trip.
+double plan_cost_of_trip(const ProblemData& data, const Fleet& fleet, const Shares& shares,
+                         Int slot, Int node);
+
 // Estimate by how much that grows if a vehicle of type `k` more serves a customer alone.
 double plan_cost_of_opening(const ProblemData& data, const Shares& shares, Int k, Int node);
 
