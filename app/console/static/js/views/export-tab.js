@@ -5,6 +5,7 @@ import { linksByVehicle } from '../core/dispatches.js';
 import { geoJson, gpx, stopsCsv } from '../core/exports.js';
 import { flownLines } from '../core/flights.js';
 import { asStated } from '../core/times.js';
+import { nameOfVehicle } from '../core/vehicle-labels.js';
 import { html } from '../libraries.js';
 import { useStore } from '../store.js';
 import { FlightFiles } from './flight-files.js';
@@ -76,7 +77,6 @@ function saveJson(name, value) {
 
 // Few want a picture: what draws it is loaded for who does.
 const pictures = () => import('../core/picture.js');
-import { nameOfVehicle } from '../core/vehicle-labels.js';
 
 async function saveSvg(name, index, legsOf) {
   const { pictureOf, toSvg } = await pictures();
