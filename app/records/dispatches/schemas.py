@@ -121,6 +121,7 @@ class StepStanding(_Reply):
                        "the vehicle.")
     state: Outcome = Field(description="What became of it.")
     time: float = Field(description="When, in seconds since plan start.")
+    late: float = Field(0.0, description="How many seconds behind the plan that was; 0: none.")
     reason: str | None = Field(None, description="Why it failed, in the driver's words.")
 
 

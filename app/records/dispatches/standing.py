@@ -41,7 +41,8 @@ def standing_reply(standing: Standing, steps: Sequence[StepReply]) -> list[StepS
         reason=broken.reason)]
     return vehicle + [
         StepStanding(id=step.id, kind=step.kind, place=_place(step), state=told.outcome,
-                     time=told.time, reason=told.reason)
+                     time=told.time, reason=told.reason,
+                     late=max(0.0, told.time - step.time - step.duration))
         for step in steps if (told := standing.get(step.id)) is not None]
 
 

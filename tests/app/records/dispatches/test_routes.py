@@ -12,7 +12,8 @@ from sqlalchemy import text, update
 
 from app.database.tables import DISPATCHES
 from app.records.clock import now_ms
-from app.records.dispatches.schemas import DispatchReply, DriverDay, EventsReply
+from app.records.dispatches.schemas import DispatchReply, DriverDay, EventsReply, StepReply
+from app.records.dispatches.standing import ToldStep, standing_reply
 from app.records.dispatches.store import delete_expired
 from app.serving.access.keys import KeyStore
 from app.serving.access.tokens import digest_of
@@ -113,6 +114,16 @@ def test_steps_say_what_the_vehicle_avoids_on_its_way(service: httpx.Client) -> 
                              ([], ["tolls", "ferries"]), strict=True):
         steps = service.get("/drive/day", headers=holding(token_of(link))).json()["steps"]
         assert all(step["avoid"] == avoided for step in steps)
+
+
+def test_who_tells_late_is_as_late_as_it_says(service: httpx.Client) -> None:
+    token = token_of(under_way(service)["links"][0])
+    day = service.get("/drive/day", headers=holding(token)).json()
+    steps = {step["id"]: StepReply.model_validate(step) for step in day["steps"]}
+    ends = {name: step.time + step.duration for name, step in steps.items()}
+    told_of = {DEPART: ToldStep("done", ends[DEPART] - 60),
+               FIRST: ToldStep("done", ends[FIRST] + 720)}
+    assert [step.late for step in standing_reply(told_of, [*steps.values()])] == [0, 720]
 
 
 def test_events_count_once_in_order_and_are_followed(service: httpx.Client) -> None:

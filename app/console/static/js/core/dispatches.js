@@ -74,6 +74,11 @@ export function standingText({ state, opened_at: opened, done, failed, steps, st
   return `${broken}${far}${lost}${state === 'over' ? `; ${t('standing.over')}` : ''}`;
 }
 
+/** Return by how many seconds what a vehicle told last was behind the plan. */
+export function behindPlan({ standing }) {
+  return standing.reduce((last, told) => (told.time >= last.time ? told : last), { time: 0 }).late;
+}
+
 /** What phones tell as known reasons, whatever their language. */
 const REASONS = {
   'Nobody there': 'nobody',

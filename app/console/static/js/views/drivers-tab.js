@@ -1,8 +1,8 @@
 /** Drivers: links for their phones, sheets, and how far they are. */
 
 import { indexOf, settledOf, shownPlan } from '../actions.js';
-import { driverReason, linksByVehicle, standingText } from '../core/dispatches.js';
-import { clock } from '../core/format.js';
+import { behindPlan, driverReason, linksByVehicle, standingText } from '../core/dispatches.js';
+import { clock, duration } from '../core/format.js';
 import { nameOfVehicle } from '../core/vehicle-labels.js';
 import {
   endDay,
@@ -81,6 +81,7 @@ function OnTheRoad({ dispatch }) {
 function Link({ link, vehicle }) {
   const name = nameOfVehicle(link.vehicle);
   const of = { vehicle: name };
+  const late = behindPlan(link);
   const [shown, setShown] = useState(false);
   const [copied, setCopied] = useState(false);
   const copy = async () => {
@@ -89,7 +90,8 @@ function Link({ link, vehicle }) {
   };
   return html`<li class="card"><header>
       <strong>${vehicle && html`<${Badge} vehicle=${vehicle} /> `}${name}</strong>
-      <span class="right" aria-live="polite">${standingText(link)}</span></header>
+      <span class="right" aria-live="polite">${standingText(link)}${late >= 60 &&
+        html` <strong class="late-text">+${duration(late)}</strong>`}</span></header>
     <div class="inside"><div class="buttons">
       ${link.url && link.state === 'open' && html`
         <button type="button" onClick=${copy} 
