@@ -156,8 +156,10 @@ function customerStyle(index, customer, parts, dark, radius) {
   const standing = standingIn(parts, halt);
   const colour = standing === 'lost' ? redOf(dark) : vehicleColour(halt.vehicle.number, dark);
   if (standing === 'settled') Object.assign(plain, { opacity: 0.6, fillOpacity: 0.45 });
-  if (isByAir(halt)) return [Disc, { ...plain, weight: 2.2, color: colour, fillColor: ground }];
-  return [Disc, { ...plain, color: ground, fillColor: colour }];
+  const fillColor = isByAir(halt) ? ground : colour;
+  if (halt.lateness > 0) return [Disc, { ...plain, weight: 3, color: redOf(dark), fillColor }];
+  if (isByAir(halt)) return [Disc, { ...plain, weight: 2.2, color: colour, fillColor }];
+  return [Disc, { ...plain, color: ground, fillColor }];
 }
 
 /** Return the marks of some depots, starts, ends and launch sites. */
