@@ -149,7 +149,7 @@ export async function stop() {
   try {
     if (task.job) {
       const job = await api.stopJob(task.job);
-      if (job.result) keep(task, job.result);
+      if (job.result) keepAndNote(task, job.result);
     }
   } catch (error) {
     showFailure(error);
@@ -184,8 +184,7 @@ async function decode(task, request) {
   const options = { ...request.options, time_limit: 0 };
   delete options.search_iterations;
   const reply = await api.postPlan({ ...request, options }, task.controller.signal);
-  keep(task, reply);
-  addPoint(task, reply.cost.total);
+  keepAndNote(task, reply);
 }
 
 async function improve(task, request) {
@@ -223,10 +222,7 @@ async function follow(task) {
   const ended = await api.getJob(task.job);
   if (current !== task) return;
   if (ended.error) throw new api.ApiError(0, t('failed.search'), ended.error);
-  if (ended.result) {
-    keep(task, ended.result);
-    addPoint(task, ended.result.cost.total);
-  }
+  if (ended.result) keepAndNote(task, ended.result);
 }
 
 /** Return a function that runs `work` again only when it has ended, and once more if asked to. */
@@ -251,6 +247,11 @@ function latestOf(work) {
       }
     }
   };
+}
+
+function keepAndNote(task, reply) {
+  keep(task, reply);
+  addPoint(task, reply.cost.total);
 }
 
 /** Show a reply as the plan of a task, unless a cheaper one is there already. */
