@@ -16,13 +16,9 @@ struct Leg {
     Int duration, distance;
 };
 
-inline Leg operator+(Leg a, Leg b) {
-    return {a.duration + b.duration, a.distance + b.distance};
-}
+inline Leg operator+(Leg a, Leg b) { return {a.duration + b.duration, a.distance + b.distance}; }
 
-inline Leg operator-(Leg a, Leg b) {
-    return {a.duration - b.duration, a.distance - b.distance};
-}
+inline Leg operator-(Leg a, Leg b) { return {a.duration - b.duration, a.distance - b.distance}; }
 
 // The legs to a customer and from there, and how much further that is than the direct way.
 struct Detour {
