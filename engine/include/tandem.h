@@ -145,7 +145,7 @@ typedef struct tandem_vehicle_type {
     int64_t usual_working;
     int64_t max_trip_distance;
     int64_t max_distance;
-    int64_t limited_travel; /* whose distances count for that */
+    int64_t limited_travel;      /* whose distances count for that */
     int64_t max_travel_duration; /* what driving rules allow in a day, if that is less */
     int64_t max_trips;
     int64_t max_stops;

@@ -33,8 +33,8 @@ inline void carry(const ProblemData& data, Trip& trip, Int node) {
 Leg leg_between(const ProblemData& data, const VehicleType& type, Int from, Int to);
 
 // Return its legs from one stop of a route to another, as one.
-Leg legs_on(const ProblemData& data, const VehicleType& type, View<const Stop, 1> stops,
-              Int first, Int last);
+Leg legs_on(const ProblemData& data, const VehicleType& type, View<const Stop, 1> stops, Int first,
+            Int last);
 
 // Write loads, releases and distances of the trips. In place; false if one is too much.
 bool load_trips(const ProblemData& data, Route& route, View<Stop, 1> stops, View<Trip, 1> trips,
