@@ -66,7 +66,7 @@ Alone alone(const ProblemData& data, Int k, Int node) {
         case Measure::stops:
             return {working, 1.0};
         case Measure::load:
-            return {working, double(amount_at(data, node))};
+            return {working, amount_at(data, node)};
         case Measure::distance:
             return {working, double(out.distance + home.distance)};
         default:
