@@ -71,7 +71,8 @@ def find_workers(problem: Problem, past: Past, kept: Mapping[Vehicle, Kept]) -> 
             driven = _driven(problem, route, is_home=False)
             later = _later(problem, past, route, home, home_by, Legs(
                 driven.duration + planned.duration, driven.distance + planned.distance))
-            rest = _rest_of_trip(problem, route, way_on, home_by if later is None else home)
+            rest = _rest_of_trip(problem, route, way_on, home_by if later is None else home,
+                                 driven)
             if later is not None:
                 rest = replace(rest, kind=_with_as_much(rest.kind, planned))
             workers.append(rest)
@@ -235,14 +236,14 @@ def _can_go_on(problem: Problem, route: Kept, aboard: Sequence[int], home_by: in
                 (kind.max_travel_duration, driven.duration))))
 
 
-def _rest_of_trip(problem: Problem, route: Kept, way_on: WayOn, home_by: int) -> VehicleWorker:
+def _rest_of_trip(problem: Problem, route: Kept, way_on: WayOn, home_by: int,
+                  driven: Legs) -> VehicleWorker:
     """Return what a vehicle can do on the trip that it is on."""
     kind, trip = problem.vehicle_types[route.vehicle.type], route.decision.trips[-1]
     stops, sorties = _counts_left(problem, route)
     equipped = with_drones_then(kind, bool(trip.sorties))
     drones = [replace(drones, batteries=left) for drones, left
               in zip(equipped.drone_types, _batteries_left(problem, route), strict=True)]
-    driven = _driven(problem, route, is_home=False)
     own = replace(
         _own_type(problem, route, way_on.ready, home_by, 1), end=trip.nodes[-1],
         max_trip_distance=_left(kind.max_trip_distance,
