@@ -376,13 +376,13 @@ def route_violations(
         yield Violation("BREAK", message, path if number is None else trips[number].path)
     for number, message in broken_driving(vehicle_type, [timed.trip for timed in trips]):
         yield Violation("DRIVING", message, trips[number].path)
-    travel, limit = travel_duration(timed.trip for timed in trips), vehicle_type.max_travel_duration
-    if limit is not None and travel > limit:
+    limit = vehicle_type.max_travel_duration
+    if limit is not None and (travel := travel_duration(timed.trip for timed in trips)) > limit:
         message = f"is on legs for {seconds(travel)}, at most {seconds(limit)} are allowed"
         yield Violation("TRAVEL_DURATION", message, path)
     limit = vehicle_type.max_distance
-    distance = limited_distance(problem, vehicle_type, [timed.trip for timed in trips])
-    if limit is not None and distance > limit:
+    if limit is not None and (distance := limited_distance(
+            problem, vehicle_type, [timed.trip for timed in trips])) > limit:
         message = f"drives {decimal(distance)} m, at most {decimal(limit)} m are allowed"
         yield Violation("DISTANCE", message, path)
     limit = vehicle_type.max_working_duration
