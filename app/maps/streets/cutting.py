@@ -85,7 +85,7 @@ def _cut(shapes: Shapes, kind: StreetKind, zoom: int) -> Iterator[TilePiece]:
 
 
 def quartered(shapes: Shapes, which: IntArray, zoom: int, tile: tuple[int, int],
-               depth: int) -> Iterator[tuple[int, int, Shapes, IntArray]]:
+              depth: int) -> Iterator[tuple[int, int, Shapes, IntArray]]:
     """Yield what the tiles of a zoom within a larger one hold, and which shapes that is of.
 
     The larger one's zoom is the depth. From quarter to quarter large shapes become small, so that
@@ -114,6 +114,7 @@ def _clipped(shapes: Shapes, which: IntArray, frame: FloatArray) -> tuple[Shapes
 
 
 def steps_of(shapes: Shapes, are_areas: bool, tile: tuple[int, int], zoom: int) -> list[list[int]]:
+    """Return the lines of shapes within a tile, as steps from point to point, (2 a point)."""
     parts = shapely.get_parts(shapes)
     wanted = shapely.GeometryType.POLYGON if are_areas else shapely.GeometryType.LINESTRING
     parts = parts[shapely.get_type_id(parts) == wanted]
