@@ -216,6 +216,19 @@ def test_saved_plan_stands_beside_the_open_one(page: Page) -> None:
     assert state(page, "state.besides") == 3
 
 
+def test_one_click_keeps_a_plan_for_all_and_makes_a_link_to_it(
+        page: Page, open_page: Callable[..., Page], service: str) -> None:
+    open_example(page, SMALL)
+    page.get_by_role("button", name="Share", exact=False).click()
+    url = page.locator("#share-url").input_value()
+    assert state(page, "state.home.where") == "service"
+    visitor = open_page(service)
+    visitor.goto("about:blank")
+    visitor.goto(url)
+    expect(visitor.get_by_text("You look at a shared plan")).to_be_visible()
+    expect(visitor.locator(".result-line")).to_contain_text("2 of 2 served")
+
+
 def test_link_opens_a_plan_without_a_key(page: Page, open_page: Callable[..., Page],
                                          service: str) -> None:
     open_example(page, SMALL)

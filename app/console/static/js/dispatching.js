@@ -3,7 +3,9 @@
 import * as api from './api.js';
 import { openTab, showFailure, shownPlan } from './actions.js';
 import { dispatchOf, goOnAsTold, openDispatches, withMade } from './core/dispatches.js';
+import { setBroken } from './core/replanning.js';
 import { goOnWith } from './ordering.js';
+import { plan } from './planning.js';
 import { store } from './store.js';
 
 const KEPT = 'tandem-dispatch';
@@ -17,6 +19,20 @@ export function sendOut() {
   return entry && attempt(async () => {
     keep({}, await api.postDispatch(dispatchOf(entry)), entry.plan);
   });
+}
+
+/** Tell whether drivers have links that are open. */
+export function isOnTheRoad({ dispatch }) {
+  return Boolean(dispatch?.reply.links.some(({ state }) => state === 'open'));
+}
+
+/** Tell whether another plan is looked at than drivers have, and it keeps all rules. */
+export function isToBeSent(state) {
+  const entry = shownPlan(state);
+  const isOfDay = state.tab === 'drivers'
+    || state.plans.some((other) => other.plan === state.dispatch?.plan);
+  return isOnTheRoad(state) && isOfDay && state.run.state === 'idle' && entry !== null
+    && entry.plan !== state.dispatch.plan && !entry.hand?.violations.length;
 }
 
 /** Put the plan that is looked at in the place of what drivers have: they keep their links. */
@@ -77,19 +93,24 @@ export function leaveDispatch() {
 }
 
 /**
- * Plan on from what drivers told.
+ * Plan on from what drivers told, at once.
  *
+ * @param broken a vehicle that can't go on, of which its driver told nothing; null: none
  * @param answers `{now, served, unserved}`: whom nobody told of; where they lack, they are asked
  */
-export function goOnFromDrivers(answers) {
+export function goOnFromDrivers(broken, answers) {
   return attempt(async () => {
     const told = await api.getGoingOn(store.get().dispatch.reply.id, answers);
     const isAsked = !answers && told.doubtful.length > 0;
-    store.set({ untold: isAsked ? told : null });
+    store.set({ untold: isAsked ? { ...told, broken } : null });
     if (isAsked) return;
     const former = shownPlan(store.get())?.request;
-    goOnWith((request) => goOnAsTold(request, told), former);
+    goOnWith((request) => {
+      const next = goOnAsTold(request, told);
+      return broken ? setBroken(next, broken, true) : next;
+    }, former);
     openTab('replan');
+    await plan();
   });
 }
 

@@ -1,7 +1,7 @@
 /** Hands on the plan: customers are put elsewhere, locked, and given their best places. */
 
 import * as api from './api.js';
-import { showFailure, shownPlan } from './actions.js';
+import { showFailure, shownPlan, undo } from './actions.js';
 import { addCustomer } from './core/changes.js';
 import { numbersIn } from './core/entries.js';
 import { judgedPlan, withCustomerAt, withRoute } from './core/moving.js';
@@ -175,6 +175,12 @@ export function undoStep() {
   }
   return step !== null;
 }
+
+/** Tell whether there is something to undo. */
+export const isUndoable = (state) => state.past.length > 0 || stepBack(state) !== null;
+
+/** Undo the last change by hand, or of the problem. */
+export const undoLast = () => undoStep() || undo();
 
 /** Make a change by hand again; tell whether there was one. */
 export function redoStep() {

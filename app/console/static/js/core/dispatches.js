@@ -61,11 +61,13 @@ export function withMade(made, { links }) {
   return { ...made, ...Object.fromEntries(told) };
 }
 
+/** Seconds behind the plan from which on a driver is late. */
+const LATE = 60;
+
 /** Return how far a driver is, in words. */
 export function standingText({ state, opened_at: opened, done, failed, steps, standing }) {
   if (state === 'revoked') return t('standing.revoked');
-  const isBroken = standing.some((told) => told.kind === 'vehicle' && told.state === 'failed');
-  const broken = isBroken ? `${t('standing.broken')}; ` : '';
+  const broken = hasBroken({ standing }) ? `${t('standing.broken')}; ` : '';
   const over = done + failed;
   const last = standing.reduce((latest, { time }) => Math.max(latest, time), -Infinity);
   const opening = opened ? t('standing.opened') : t('standing.unopened');
@@ -74,9 +76,20 @@ export function standingText({ state, opened_at: opened, done, failed, steps, st
   return `${broken}${far}${lost}${state === 'over' ? `; ${t('standing.over')}` : ''}`;
 }
 
-/** Return by how many seconds what a vehicle told last was behind the plan. */
+/** Tell whether a driver who isn't done is late, or has broken down. */
+export function isInTrouble(link) {
+  return link.state === 'open' && (hasBroken(link) || behindPlan(link) > 0);
+}
+
+function hasBroken({ standing }) {
+  return standing.some(({ kind, state }) => kind === 'vehicle' && state === 'failed');
+}
+
+/** Return by how many seconds what a vehicle told last was late, 0 for less than a minute. */
 export function behindPlan({ standing }) {
-  return standing.reduce((last, told) => (told.time >= last.time ? told : last), { time: 0 }).late;
+  const last = standing.reduce((latest, told) => (told.time >= latest.time ? told : latest),
+    { time: 0, late: 0 });
+  return last.late < LATE ? 0 : last.late;
 }
 
 /** What phones tell as known reasons, whatever their language. */

@@ -33,6 +33,22 @@ export function penaltyOf({ request, plan }) {
   return penalty < LEAST ? 0 : penalty;
 }
 
+/**
+ * Return the class of a change of what is paid; to serve fewer for less is no saving.
+ *
+ * @param {number} change
+ * @param {boolean} isForFewer
+ */
+export function judged(change, isForFewer) {
+  if (Math.abs(change) < LEAST || (change < 0 && isForFewer)) return '';
+  return change > 0 ? 'delta-bad' : 'delta-good';
+}
+
+/** Tell whether a plan serves fewer than another. */
+export function servesFewer({ plan }, { plan: former }) {
+  return plan.summary.served < former.summary.served;
+}
+
 /** Return what a plan costs, without penalties that nobody stated. */
 export function trueCost(entry) {
   return entry.plan.cost.total - penaltyOf(entry);

@@ -2,7 +2,7 @@
 
 import { openRequest, openTab, showFailure } from '../actions.js';
 import * as api from '../api.js';
-import { planToSave } from '../core/drafts.js';
+import { isUnsaved, planToSave } from '../core/drafts.js';
 import { plan, resume } from '../planning.js';
 import { resumeScenario } from '../scenarios.js';
 import { store } from '../store.js';
@@ -209,9 +209,21 @@ async function saveTo(where, id, version) {
   }
 }
 
+/** Keep what is open for all who have the key, unless it is, and make a link to it. */
+export async function share() {
+  const { home } = store.get();
+  const isThere = home?.where === 'service';
+  if (!isThere) await saveTo('service', newId(), null);
+  else if (isUnsaved(store.get())) await saveTo('service', home.id, home.version);
+  const now = store.get().home;
+  if (now?.where !== 'service' || isUnsaved(store.get())) return; // why, is told
+  await openLinks(now);
+  await makeLink();
+}
+
 /** Show the links of a kept plan. */
 export async function openLinks(kept) {
-  change({ view: 'links', kept, links: [], url: null });
+  store.set({ keeping: { view: 'links', kept, links: [], url: null, failure: null, busy: false } });
   const links = await attempt(() => api.getLinks(kept.id));
   if (links) change({ links });
 }

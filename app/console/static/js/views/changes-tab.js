@@ -11,7 +11,7 @@ import { droneCount } from '../core/drones.js';
 import { fromNothing } from '../core/replanning.js';
 import { clock, km, money, number, percent, signed } from '../core/format.js';
 import { matchVehicles } from '../core/matching.js';
-import { costTerms, penaltyOf, trueCost } from '../core/terms.js';
+import { costTerms, judged, penaltyOf, servesFewer, trueCost } from '../core/terms.js';
 import { html } from '../libraries.js';
 import { plan } from '../planning.js';
 import { store, useStore } from '../store.js';
@@ -184,9 +184,11 @@ function Figures({ entry, former }) {
   const both = [former, entry];
   const costs = both.map(({ plan }) => plan.cost);
   const penalties = both.map(penaltyOf);
-  /** @type {(name: string, both: any[], show?: (value: any) => string, cost?: boolean) => any} */
-  const line = (name, [before, now], show = money, cost = true) => html`<${Difference}
-    key=${name} name=${name} before=${before} now=${now} show=${show} cost=${cost} />`;
+  const isForFewer = servesFewer(entry, former);
+  /** @type {(name: string, both: any[], show?: any, isCost?: boolean) => any} */
+  const line = (name, [before, now], show = money, isCost = true) => html`<${Difference}
+    key=${name} name=${name} before=${before} now=${now} show=${show}
+    judge=${(change) => (isCost ? judged(change, isForFewer) : '')} />`;
   const paid = (term) => costs.map((cost, index) =>
     (cost[term] ?? 0) - (term === 'unassigned' ? penalties[index] : 0));
   return html`<table><thead><tr><th scope="col"></th>
@@ -212,10 +214,9 @@ function Tours({ tours }) {
     t('whatIf.renamed', { now, before, count: shared })}</li>`)}</ul>`;
 }
 
-function Difference({ name, before, now, show, cost = false }) {
+function Difference({ name, before, now, show, judge }) {
   const change = now - before;
-  const judged = !cost || Math.abs(change) < 0.005 ? '' : change < 0 ? 'delta-good' : 'delta-bad';
   return html`<tr><th scope="row">${name}</th><td class="number">${show(before)}</td>
     <td class="number">${show(now)}</td>
-    <td class=${`number ${judged}`}>${signed(change, show)}</td></tr>`;
+    <td class=${`number ${judge(change)}`}>${signed(change, show)}</td></tr>`;
 }

@@ -12,7 +12,6 @@ import {
   lookForDispatches,
   renew,
   revoke,
-  sendChange,
   sendOut,
 } from '../dispatching.js';
 import { html, useState } from '../libraries.js';
@@ -58,13 +57,11 @@ function OnTheRoad({ dispatch }) {
   const isGeographic = entry?.request.coordinate_system === 'geographic';
   return html`<section class="section"><h3>${t('drivers.road')}</h3>
       <div class="buttons">
-        <button type="button" class="primary" onClick=${() => goOnFromDrivers()}>
+        <button type="button" class="primary" onClick=${() => goOnFromDrivers(null)}>
           ${t('drivers.replan')}</button>
         <button type="button" disabled=${!index} onClick=${() =>
           printSheets(index.vehicles, settledOf(entry, request), isGeographic, links)}>
           ${t('drivers.print')}</button>
-        ${isOpen && entry && entry.plan !== dispatch.plan && html`<button type="button"
-          onClick=${sendChange}>${t('drivers.sendChange', { number: entry.number })}</button>`}
         ${isOpen ? html`<button type="button" onClick=${endDay}>
           ${t('drivers.end')}</button>`
           : html`<button type="button" onClick=${leaveDispatch}>
@@ -90,7 +87,7 @@ function Link({ link, vehicle }) {
   };
   return html`<li class="card"><header>
       <strong>${vehicle && html`<${Badge} vehicle=${vehicle} /> `}${name}</strong>
-      <span class="right" aria-live="polite">${standingText(link)}${late >= 60 &&
+      <span class="right" aria-live="polite">${standingText(link)}${late > 0 &&
         html` <strong class="late-text">+${duration(late)}</strong>`}</span></header>
     <div class="inside"><div class="buttons">
       ${link.url && link.state === 'open' && html`
@@ -101,7 +98,10 @@ function Link({ link, vehicle }) {
           aria-label=${t('drivers.qrOf', of)}>${t('drivers.qr')}</button>
         <a href=${link.url} target="_blank" rel="noopener noreferrer"
           aria-label=${t('drivers.openOf', of)}>${t('kept.open')}</a>`}
-      ${link.state === 'open' && html`<button type="button" onClick=${() => revoke(link.id)}
+      ${link.state === 'open' && html`<button type="button"
+        onClick=${() => goOnFromDrivers(link.vehicle)}
+        aria-label=${t('drivers.brokenOf', of)}>${t('drivers.broken')}</button>
+      <button type="button" onClick=${() => revoke(link.id)}
         aria-label=${t('drivers.revokeOf', of)}>${t('drivers.revoke')}</button>`}
       ${link.state !== 'over' && html`<button type="button" onClick=${() => renew(link.id)}
         aria-label=${t('drivers.renewOf', of)}>${t('drivers.renew')}</button>`}

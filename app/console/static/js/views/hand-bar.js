@@ -3,9 +3,9 @@
 import { hover, openTab, shownPlan } from '../actions.js';
 import { money, signed } from '../core/format.js';
 import { placeInWords, rulesInWords } from '../core/hands-words.js';
-import { trueCost } from '../core/terms.js';
+import { judged, trueCost } from '../core/terms.js';
 import { nameOfVehicle } from '../core/vehicle-labels.js';
-import { sendChange, sendOut } from '../dispatching.js';
+import { isOnTheRoad, sendOut } from '../dispatching.js';
 import { isFurther, redoStep, stepBack, stepForth, takeFit, undoStep } from '../hands.js';
 import { html } from '../libraries.js';
 import { improvePlan } from '../planning.js';
@@ -37,9 +37,9 @@ function Outcome({ entry }) {
   const isBack = useStore((state) => Boolean(stepBack(state)));
   const isForth = useStore((state) => Boolean(stepForth(state)));
   const whole = trueCost(entry) - before;
-  return html`<p id="hand-outcome">${words}: <strong class=${classOf(change)}>${signed(change)}
-      </strong>${Math.abs(whole - change) > 0.005 && html`, ${parts('hand.whole', {
-        sum: html`<strong class=${classOf(whole)}>${signed(whole)}</strong>`,
+  return html`<p id="hand-outcome">${words}: <strong class=${judged(change, penalty > 0)}>${
+      signed(change)}</strong>${Math.abs(whole - change) > 0.005 && html`, ${parts('hand.whole', {
+        sum: html`<strong class=${judged(whole, penalty > 0)}>${signed(whole)}</strong>`,
         name: fromName,
       })}`}${Math.abs(penalty) > 0.005
         && html`; ${t('hand.penalty', { sum: signed(penalty) })}`}</p>
@@ -53,21 +53,19 @@ function Outcome({ entry }) {
       <button type="button" disabled=${!isForth} onClick=${redoStep}>${t('hand.redo')}</button>
       <button type="button" disabled=${busy} onClick=${improvePlan}>
         ${t('hand.improve')}</button>
-      ${!rules.length && html`<${SendNow} entry=${entry} />`}
+      ${!rules.length && html`<${SendNow} />`}
     </div>`;
 }
 
-/** Sends the changed plan to its drivers, to the links that they have if there are any. */
-function SendNow({ entry }) {
-  const dispatch = useStore((state) => state.dispatch);
-  const isOnTheRoad = dispatch?.reply.links.some(({ state }) => state === 'open');
-  if (isOnTheRoad && dispatch.plan === entry.plan) return null;
+/** Sends the changed plan to its drivers, unless they have links: the header sends it to those. */
+function SendNow() {
+  const isSent = useStore(isOnTheRoad);
   const send = async () => {
-    await (isOnTheRoad ? sendChange() : sendOut());
+    await sendOut();
     openTab('drivers');
   };
-  return html`<button type="button" class="primary" onClick=${send}>${
-    isOnTheRoad ? t('orders.sendChange') : t('orders.send')}</button>`;
+  return !isSent && html`<button type="button" class="primary" onClick=${send}>${
+    t('drivers.sendOut')}</button>`;
 }
 
 /** What was just taken back can be made again. */
@@ -76,11 +74,6 @@ function Again() {
   return step && html`<div class="buttons"><span>${
     t('hand.takenBack', { what: step.after.entry.hand.words })}</span>
     <button type="button" onClick=${redoStep}>${t('hand.redo')}</button></div>`;
-}
-
-function classOf(change) {
-  if (Math.abs(change) < 0.005) return '';
-  return change > 0 ? 'delta-bad' : 'delta-good';
 }
 
 function Fit({ fit }) {

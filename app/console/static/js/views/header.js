@@ -4,13 +4,15 @@ import { isWaiting, openRequest, openTab, shownPlan } from '../actions.js';
 import { clock, duration, km, money } from '../core/format.js';
 import { fleetSize } from '../core/naming.js';
 import { penaltyOf, trueCost } from '../core/terms.js';
+import { isToBeSent, sendChange } from '../dispatching.js';
+import { isUndoable, undoLast } from '../hands.js';
 import { html, useRef } from '../libraries.js';
 import { plan, stop } from '../planning.js';
 import { useStore } from '../store.js';
-import { openPlans } from '../keeping/kept.js';
+import { openPlans, share } from '../keeping/kept.js';
 import { t } from '../texts.js';
 import { openFile } from './files.js';
-import { Icon } from './icon.js';
+import { Icon, IconButton } from './icon.js';
 import { Menu } from './menu.js';
 import { ProblemName } from './problem-name.js';
 import { WarningsChip } from './warnings-chip.js';
@@ -23,11 +25,37 @@ const SHEET = new URL('../../examples/working-day.xlsx', import.meta.url).href;
 export function Header() {
   const ready = useStore((state) => state.request !== null);
   return html`<header class="head">
-    ${ready && html`<${ProblemName} /><${Opener} />`}
+    ${ready && html`<${ProblemName} /><${Opener} /><${Undo} />`}
     <${Result} />
-    ${ready && html`<${WarningsChip} />`}
+    ${ready && html`<${WarningsChip} /><${Share} /><${SendChange} />`}
     <${PlanButton} />
   </header>`;
+}
+
+/** Undoes the last change, by hand or of the problem. */
+function Undo() {
+  const isLeft = useStore(isUndoable);
+  return html`<${IconButton} name="undo-2" label=${t('header.undo')} onClick=${undoLast}
+    disabled=${!isLeft} id="undo" />`;
+}
+
+/** Makes a link that shows what is open. */
+function Share() {
+  const isPlanned = useStore((state) => shownPlan(state) !== null);
+  return isPlanned && html`<${IconButton} name="share-2" label=${t('header.share')}
+    onClick=${share} id="share" />`;
+}
+
+/** Sends the plan to drivers who have another. */
+function SendChange() {
+  const isOther = useStore(isToBeSent);
+  const send = async () => {
+    await sendChange();
+    openTab('drivers');
+  };
+  return isOther && html`<button type="button" class="primary" id="send-change"
+    aria-label=${t('drivers.sendChange')} onClick=${send}><${Icon} name="send" />
+    <span class="word">${t('drivers.sendChange')}</span></button>`;
 }
 
 /** Plans; while it does, stops. */

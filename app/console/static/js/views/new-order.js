@@ -30,7 +30,10 @@ export function NewOrder({ open = false }) {
   const field = (name, others) => html`<${OrderField} key=${name} name=${name} typed=${typed}
     isWrong=${told.wrong.includes(name)} ...${others} />`;
   return html`<details class="card new-order" open=${isOpen}
-    onToggle=${(event) => setWanted(event.currentTarget.open)}>
+    onToggle=${({ currentTarget }) => {
+      if (currentTarget.open && !isOpen) focusSoon();
+      setWanted(currentTarget.open);
+    }}>
     <summary>${t('orders.title')}</summary>
     ${isOpen && html`<form class="inside" onSubmit=${send}>
       ${field('place', { hint: isGlobe ? t('orders.placeOnGlobe') : t('orders.placeOnPlane') })}
@@ -44,6 +47,11 @@ export function NewOrder({ open = false }) {
         ${field('name', { hint: t('orders.nameHint') })}</div>
       <div class="buttons"><button type="submit" class="primary">${t('orders.price')}</button></div>
     </form>`}</details>`;
+}
+
+/** Put the cursor into the first field, once it is there. */
+function focusSoon() {
+  requestAnimationFrame(() => document.getElementById('order-place')?.focus());
 }
 
 const NOT_TOLD = { wrong: [], places: [] };

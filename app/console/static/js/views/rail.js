@@ -1,6 +1,7 @@
 /** The rail at the left: the rooms of the desk, settings and help. */
 
 import { openTab, shownPlan } from '../actions.js';
+import { isInTrouble } from '../core/dispatches.js';
 import { ROOMS, roomOf, tabOf } from '../core/rooms.js';
 import { layOut } from '../frame.js';
 import { html } from '../libraries.js';
@@ -50,11 +51,13 @@ function lastIn(room) {
   return store.get().frame.tabs[room] ?? ROOMS[room].tabs[0];
 }
 
-/** Return how much is open in each room: customers left out, and what was refused. */
+/** Return how much is open in each room: who is left out, drivers in trouble, what was refused. */
 function useCounts() {
   const errors = useStore((state) => state.errors);
   const out = useStore((state) => shownPlan(state)?.plan.unassigned.length ?? 0);
+  const inTrouble = useStore(({ dispatch }) =>
+    dispatch?.reply.links.filter(isInTrouble).length ?? 0);
   const counts = Object.fromEntries(Object.keys(ROOMS).map((room) => [
     room, errors.filter(({ keys }) => roomOf(tabOf(keys)) === room).length]));
-  return { ...counts, orders: counts.orders + out };
+  return { ...counts, orders: counts.orders + out, drivers: inTrouble };
 }

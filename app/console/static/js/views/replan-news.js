@@ -1,6 +1,6 @@
 /** What is new since the plan: orders that came in or were cancelled, windows that changed. */
 
-import { edit, undo } from '../actions.js';
+import { edit } from '../actions.js';
 import { giveWindows } from '../core/changes.js';
 import { requestDifferences } from '../core/differences.js';
 import { choicesOf, fromNothing, setPinned } from '../core/replanning.js';
@@ -37,9 +37,7 @@ export function News({ request, basis }) {
     )}${changes.length > MOST_LISTED && html`<li>${t('app.more', {
       count: changes.length - MOST_LISTED,
     })}</li>`}
-    </ul>
-    <div class="buttons"><button type="button" onClick=${undo}>
-      ${t('news.undo')}</button></div>`}
+    </ul>`}
   </section>`;
 }
 

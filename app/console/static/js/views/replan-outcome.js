@@ -30,11 +30,11 @@ export function Outcome({ entry }) {
       : html`<p>${t('outcome.free')}</p>`}
     ${broken.length > 0 && html`<p>${t('outcome.broken', {
       count: broken.length,
-      names: broken.join(', '),
+      names: broken.map(nameOfVehicle).join(', '),
     })}</p>`}
     ${lost.length > 0 && html`<p>${t('outcome.lost', {
       count: lost.length,
-      names: lost.join(', '),
+      names: lost.map(nameOfVehicle).join(', '),
     })}</p>`}
     ${excused.length > 0 && html`<h4>${t('outcome.excused')}</h4>
       <ul>${excused.map((rule) => html`<li key=${rule.path + rule.code}>
@@ -73,5 +73,5 @@ function Place({ entry, path }) {
   const link = id && html`<button type="button" class="link"
     onClick=${() => select(`c:${id}`)}>${id}</button>`;
   if (!id && !vehicle) return null;
-  return html`${vehicle}${vehicle && id && ', '}${link}: `;
+  return html`${vehicle && nameOfVehicle(vehicle)}${vehicle && id && ', '}${link}: `;
 }

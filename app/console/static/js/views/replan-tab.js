@@ -6,7 +6,7 @@ import { nowOf } from '../core/orders.js';
 import { setIn } from '../core/paths.js';
 import { fromNothing } from '../core/replanning.js';
 import { saidOf } from '../core/said.js';
-import { trueCost } from '../core/terms.js';
+import { judged, servesFewer, trueCost } from '../core/terms.js';
 import { html, useLayoutEffect, useState } from '../libraries.js';
 import { goOnWith, replanFrom } from '../ordering.js';
 import { improvePlan, plan } from '../planning.js';
@@ -111,11 +111,6 @@ function Draft({ request, entry }) {
     <${PinnedCustomers} request=${request} errors=${errors} />`;
 }
 
-function judgeOf(change) {
-  if (Math.abs(change) < 0.005) return '';
-  return change > 0 ? 'delta-bad' : 'delta-good';
-}
-
 /** What the plan costs beside the former, in a line. */
 function Verdict() {
   const entry = useStore(shownPlan);
@@ -126,7 +121,8 @@ function Verdict() {
   const out = entry.plan.unassigned.length;
   return html`<p id="replan-verdict">${parts('replan.verdict', {
     cost: html`<strong>${money(now)}</strong>`,
-    change: html`<span class=${judgeOf(now - before)}>${signed(now - before)}</span>`,
+    change: html`<span class=${judged(now - before, servesFewer(entry, former))}>${
+      signed(now - before)}</span>`,
     name: former.name,
   })}${out > 0 && html`; <button type="button" class="link"
       onClick=${() => store.set({ tab: 'unassigned' })}>${

@@ -82,7 +82,7 @@ function Row({ row, request }) {
       onChange=${() => edit(setPinned(request, open, !keepsAll))} /></td>
     <td><input type="checkbox" aria-label=${t('replan.brokenOf', { name })}
       checked=${progress.isBroken}
-      onChange=${() => edit(setBroken(request, name, !progress.isBroken))} /></td></tr>`;
+      onChange=${() => edit(setBroken(request, route.vehicle, !progress.isBroken))} /></td></tr>`;
 }
 
 /** A choice of what else is broken. */
@@ -90,16 +90,18 @@ function Broken({ label, hint, names, request }) {
   return names.length > 0 && html`<label>${label} <select value=""
     onChange=${(event) => edit(setBroken(request, event.target.value, true))}>
     <option value="" disabled hidden>${hint}</option>
-    ${names.map((name) => html`<option key=${name} value=${name}>${name}</option>`)}</select>
+    ${names.map((name) => html`<option key=${name} value=${name}>${
+      nameOfVehicle(name)}</option>`)}</select>
     </label>`;
 }
 
 /** A drone that is lost, or a vehicle that is broken and that the plan doesn't use. */
 function BrokenRow({ name, request, id, errors }) {
   const state = isDrone(name) ? t('replan.grounded') : t('replan.brokenUnused');
-  return html`<tr><th scope="row">${name}<div class="help">${state}</div>
+  const called = nameOfVehicle(name);
+  return html`<tr><th scope="row">${called}<div class="help">${state}</div>
       <${Errors} errors=${errors} /></th><td></td>
-    <td><input type="checkbox" id=${id} aria-label=${t('replan.brokenOf', { name })} checked
+    <td><input type="checkbox" id=${id} aria-label=${t('replan.brokenOf', { name: called })} checked
       onChange=${() => edit(setBroken(request, name, false))} /></td></tr>`;
 }
 

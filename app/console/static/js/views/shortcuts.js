@@ -1,8 +1,8 @@
 /** Keys that work everywhere but in fields. */
 
-import { indexOf, openTab, redo, select, shownPlan, undo } from '../actions.js';
+import { indexOf, openTab, redo, select, shownPlan } from '../actions.js';
 import { ROOMS } from '../core/rooms.js';
-import { redoStep, undoStep } from '../hands.js';
+import { redoStep, undoLast } from '../hands.js';
 import { openPlans, save } from '../keeping/kept.js';
 import { replanFromClock } from '../ordering.js';
 import { improvePlan, plan, stop } from '../planning.js';
@@ -34,7 +34,6 @@ export const SINGLE_KEYS = [
 /** Keys that work in any case. */
 export const OTHER_KEYS = ['undo', 'redo', 'save', 'escape'];
 
-const undoLast = () => undoStep() || undo();
 const redoLast = () => redoStep() || redo();
 
 const ACTIONS = {

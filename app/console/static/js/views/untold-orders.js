@@ -1,6 +1,7 @@
 /** The question whether orders were served that the plan has as served, and nobody told. */
 
 import { clock } from '../core/format.js';
+import { nameOfVehicle } from '../core/vehicle-labels.js';
 import { goOnFromDrivers } from '../dispatching.js';
 import { html, useState } from '../libraries.js';
 import { store } from '../store.js';
@@ -8,7 +9,7 @@ import { t } from '../texts.js';
 
 /** The question; `told` is the reply that has them as `doubtful`. */
 export function UntoldOrders({ told }) {
-  const { doubtful, replan } = told;
+  const { broken, doubtful, replan } = told;
   const [served, setServed] = useState(
     new Set(doubtful.filter((order) => order.is_served).map(({ customer }) => customer)),
   );
@@ -19,7 +20,7 @@ export function UntoldOrders({ told }) {
   };
   const answer = () => {
     const customers = doubtful.map(({ customer }) => customer);
-    goOnFromDrivers({
+    goOnFromDrivers(broken, {
       now: replan.freeze_before,
       served: customers.filter((customer) => served.has(customer)),
       unserved: customers.filter((customer) => !served.has(customer)),
@@ -38,7 +39,7 @@ export function UntoldOrders({ told }) {
 
 function Orders({ vehicle, orders, served, choose }) {
   const areAll = orders.every(({ customer }) => served.has(customer));
-  return html`<fieldset><legend>${vehicle}</legend>
+  return html`<fieldset><legend>${nameOfVehicle(vehicle)}</legend>
     ${orders.length > 1 && html`<label class="check"><input type="checkbox" checked=${areAll}
       onChange=${(event) => choose(orders, event.target.checked)} />
       ${t('untold.all')}</label>`}
