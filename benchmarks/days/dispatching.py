@@ -57,7 +57,7 @@ def wave_of(day: Day, epoch: int, waiting: Sequence[Request], look_ahead: int) -
     at = np.array([*range(places), *(each.node for each in waiting)])
     legs = day.legs[np.ix_(at, at)] * UNIT
     customers = (*(Customer(f"place {node}", (0,)) for node in range(1, places)),
-                 *(_customer(each, 0) for each in waiting))
+                 *map(_customer, waiting))
     truck = VehicleType("truck", VEHICLES, (day.capacity * UNIT,), 0, cost_per_km=1.0,
                         latest=int(day.window[0, 1]) * UNIT)
     problem = Problem((Depot("depot"),), customers, (truck,), (Travel(legs, legs),),
@@ -67,15 +67,15 @@ def wave_of(day: Day, epoch: int, waiting: Sequence[Request], look_ahead: int) -
                 tuple([day.departure(each) * UNIT for each in range(epoch, last + 1)]))
 
 
-def _customer(request: Request, release: int) -> Customer:
+def _customer(request: Request) -> Customer:
     return Customer(str(request.number), (request.demand * UNIT,), request.service * UNIT,
-                    request.earliest * UNIT, request.latest * UNIT, release_time=release * UNIT)
+                    request.earliest * UNIT, request.latest * UNIT)
 
 
 def forecast_of(day: Day, epoch: int, look_ahead: int) -> Forecast:
     """Return what draws the orders of the next epochs as the competition does."""
     def draw(rng: np.random.Generator) -> list[Coming]:
-        return [Coming(request.node, _customer(request, day.departure(ahead)))
+        return [Coming(request.node, _customer(request), day.departure(ahead) * UNIT)
                 for ahead in range(epoch + 1, min(day.epochs[-1], epoch + look_ahead) + 1)
                 for request in day.drawn(ahead, rng)]
     return draw

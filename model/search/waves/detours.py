@@ -30,75 +30,75 @@ def detours(future: Future, routes: Sequence[Route], kinds: range) -> FloatArray
     """
     problem, nodes = future.problem, future.open
     orders, best = np.array(nodes, np.int64), np.full(len(nodes), np.inf)
-    saved = _saved(problem, routes)
+    saved = dict[int, float]()
     for index, kind in enumerate(problem.vehicle_types):
-        legs = [leg for route in routes if route.vehicle_type == index
-                for trip in route.trips for leg in _legs(problem, kind, trip)]
-        if legs:
-            best = np.minimum(best, _cheapest(problem, index, legs, orders))
+        trips = [trip for route in routes if route.vehicle_type == index for trip in route.trips]
+        duration, distance = problem.travel[kind.travel].arrays()
+        cost = (distance * (kind.cost_per_km / MM_PER_KM)
+                + duration * (kind.cost_per_hour / MS_PER_HOUR))
+        saved |= {node: more for trip in trips for node, more in _saved(kind, cost, trip)}
+        along = _Along(problem, index, duration, cost)
+        if legs := [leg for trip in trips for leg in along.legs(trip)]:
+            best = np.minimum(best, along.cheapest(legs, orders))
         if index in kinds:
             alone = _Leg(kind.begins_at, kind.ends_at, kind.earliest, kind.latest, kind.capacity)
-            best = np.minimum(best, kind.fixed_cost + _cheapest(problem, index, [alone], orders))
+            best = np.minimum(best, kind.fixed_cost + along.cheapest([alone], orders))
     costs = zip(nodes, best.tolist(), strict=True)
     return np.array([saved.get(node, cost) for node, cost in costs])
 
 
-def _along(problem: Problem, kind: VehicleType) -> tuple[IntArray, FloatArray]:
-    """Return how long legs of a type take, and what they cost."""
-    duration, distance = problem.travel[kind.travel].arrays()
-    return duration, (distance * (kind.cost_per_km / MM_PER_KM)
-                      + duration * (kind.cost_per_hour / MS_PER_HOUR))
-
-
-def _saved(problem: Problem, routes: Sequence[Route]) -> dict[int, float]:
-    """Return what each route saves without each of its orders, by node."""
-    saved = dict[int, float]()
-    for route in routes:
-        kind = problem.vehicle_types[route.vehicle_type]
-        cost = _along(problem, kind)[1]
-        for trip in route.trips:
-            at = [stop.node for stop in trip.stops]
-            only = len(at) == 3
-            for before, node, behind in zip(at, at[1:], at[2:], strict=False):
-                saved[node] = float(cost[before, node] + cost[node, behind]
-                                    + (kind.fixed_cost if only else -cost[before, behind]))
-    return saved
-
-
-def _legs(problem: Problem, kind: VehicleType, trip: Trip) -> Iterator[_Leg]:
-    """Yield the legs of a trip."""
+def _saved(kind: VehicleType, cost: FloatArray, trip: Trip) -> Iterator[tuple[int, float]]:
+    """Yield each order of a trip with what the trip saves without it."""
     at = [stop.node for stop in trip.stops]
-    orders = [problem.customers[node - problem.num_depots] for node in at[1:-1]]
-    duration = _along(problem, kind)[0]
-    used = np.sum([each.demand for each in orders], axis=0)
-    room = tuple((np.array(kind.capacity) - used).tolist())
-    leaves, latest = [kind.earliest], [kind.latest]
-    for (before, node), each in zip(pairwise(at), orders, strict=False):
-        arrival = max(leaves[-1] + int(duration[before, node]), each.earliest)
-        leaves.append(arrival + kind.service_at(each))
-    for (behind, node), each in zip(pairwise(at[::-1]), orders[::-1], strict=False):
-        by = latest[-1] - int(duration[node, behind]) - kind.service_at(each)
-        latest.append(min(by, each.latest))
-    for (before, behind), leave, by in zip(pairwise(at), leaves, latest[::-1], strict=True):
-        yield _Leg(before, behind, leave, by, room)
+    for before, node, behind in zip(at, at[1:], at[2:], strict=False):
+        rest = -kind.fixed_cost if len(at) == 3 else cost[before, behind]
+        yield node, float(cost[before, node] + cost[node, behind] - rest)
 
 
-def _cheapest(problem: Problem, index: int, legs: Sequence[_Leg], nodes: IntArray) -> FloatArray:
-    """Return each order's shortest detour from one of some legs of a type, (order,)."""
-    kind, first = problem.vehicle_types[index], problem.num_depots
-    orders = [problem.customers[node - first] for node in nodes.tolist()]
-    opens, closes, service = np.array(
-        [(each.earliest, each.latest, kind.service_at(each)) for each in orders],
-        np.int64).reshape(-1, 3).T[:, :, None]
-    before, behind, leave, latest = np.array(
-        [(leg.before, leg.behind, leg.leave, leg.latest) for leg in legs], np.int64).T
-    duration, cost = _along(problem, kind)
-    arrival = np.maximum(leave + duration[np.ix_(before, nodes)].T, opens)
-    fits = ((arrival <= closes)
-            & (arrival + service + duration[np.ix_(nodes, behind)] <= latest))
-    demand = np.array([each.demand for each in orders]).reshape(len(orders), 1, -1)
-    fits &= (demand <= np.array([leg.room for leg in legs])).all(axis=2)
-    if problem.may_serve is not None:
-        fits &= problem.may_serve[index, nodes - first][:, None]
-    more = cost[np.ix_(before, nodes)].T + cost[np.ix_(nodes, behind)] - cost[before, behind]
-    return np.where(fits, more, np.inf).min(axis=1, initial=np.inf)
+@dataclass(frozen=True, eq=False)
+class _Along:
+    """How vehicles of a type travel."""
+
+    problem: Problem
+    index: int  # of the type
+    duration: IntArray  # (node, node)
+    cost: FloatArray  # (node, node)
+
+    @property
+    def kind(self) -> VehicleType:
+        """The type."""
+        return self.problem.vehicle_types[self.index]
+
+    def legs(self, trip: Trip) -> Iterator[_Leg]:
+        """Yield the legs of a trip."""
+        kind, at = self.kind, [stop.node for stop in trip.stops]
+        orders = [self.problem.customers[node - self.problem.num_depots] for node in at[1:-1]]
+        used = [sum(amounts) for amounts in zip(*(each.demand for each in orders), strict=True)]
+        room = tuple([most - load for most, load in zip(kind.capacity, used, strict=True)])
+        leaves, latest = [kind.earliest], [kind.latest]
+        gaps = self.duration[at[:-1], at[1:]].tolist()
+        for gap, each in zip(gaps, orders, strict=False):
+            leaves.append(max(leaves[-1] + gap, each.earliest) + kind.service_at(each))
+        for gap, each in zip(gaps[::-1], orders[::-1], strict=False):
+            latest.append(min(latest[-1] - gap - kind.service_at(each), each.latest))
+        for (before, behind), leave, by in zip(pairwise(at), leaves, latest[::-1], strict=True):
+            yield _Leg(before, behind, leave, by, room)
+
+    def cheapest(self, legs: Sequence[_Leg], nodes: IntArray) -> FloatArray:
+        """Return each order's shortest detour from one of some legs, (order,)."""
+        kind, first, may_serve = self.kind, self.problem.num_depots, self.problem.may_serve
+        orders = [self.problem.customers[node - first] for node in nodes.tolist()]
+        opens, closes, service = np.array(
+            [(each.earliest, each.latest, kind.service_at(each)) for each in orders],
+            np.int64).reshape(-1, 3).T[:, :, None]
+        before, behind, leave, latest = np.array(
+            [(leg.before, leg.behind, leg.leave, leg.latest) for leg in legs], np.int64).T
+        onward = np.ix_(nodes, behind)
+        arrival = np.maximum(leave + self.duration[np.ix_(before, nodes)].T, opens)
+        fits = (arrival <= closes) & (arrival + service + self.duration[onward] <= latest)
+        demand = np.array([each.demand for each in orders]).reshape(len(orders), 1, -1)
+        fits &= (demand <= np.array([leg.room for leg in legs])).all(axis=2)
+        if may_serve is not None:
+            fits &= may_serve[self.index, nodes - first][:, None]
+        more = self.cost[np.ix_(before, nodes)].T + self.cost[onward] - self.cost[before, behind]
+        return np.where(fits, more, np.inf).min(axis=1, initial=np.inf)

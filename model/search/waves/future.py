@@ -13,7 +13,8 @@ class Coming:
     """An order that may come, at a place that the problem knows."""
 
     node: int  # of the place
-    customer: Customer  # who misses departures before `release_time`
+    customer: Customer
+    release_time: int  # ms, departures before which it misses
 
 
 Forecast = Callable[[np.random.Generator], Sequence[Coming]]
@@ -84,23 +85,26 @@ def future_of(wave: Wave, coming: Sequence[Coming]) -> Future:
     first, kinds = problem.num_depots, problem.vehicle_types
     customers = [*(problem.customers[node - first] for node in wave.open),
                  *(each.customer for each in coming)]
+    released = [*(each.release_time for each in customers[:len(wave.open)]),
+                *(each.release_time for each in coming)]
     nodes = np.array([*range(first), *wave.open, *(each.node for each in coming)])
     costs = problem.vehicle_costs_of(range(len(kinds)), nodes[first:].tolist())
     return Future(wave, replace(
-        problem, customers=tuple([replace(each, release_time=0) for each in customers]),
+        problem, customers=tuple([each if each.release_time == 0 else replace(each, release_time=0)
+                                  for each in customers]),
         vehicle_types=tuple([replace(kind, earliest=max(kind.earliest, leaves))
                              for leaves in wave.departures for kind in kinds]),
         travel=tuple([legs.among(nodes) for legs in problem.travel]),
-        coordinates=problem.coordinates[nodes], may_serve=_may_serve(wave, nodes, customers),
+        coordinates=problem.coordinates[nodes], may_serve=_may_serve(wave, nodes, released),
         vehicle_costs=None if costs is None else np.tile(costs, (times, 1)),
         may_stop=None if problem.may_stop is None else np.tile(problem.may_stop, (times, 1))))
 
 
-def _may_serve(wave: Wave, nodes: IntArray, customers: Sequence[Customer]) -> BoolArray:
+def _may_serve(wave: Wave, nodes: IntArray, released: Sequence[int]) -> BoolArray:
     """Return (type, customer): whom vehicles may serve that leave once it is there."""
     problem = wave.problem
-    released = np.array([each.release_time for each in customers], np.int64)
-    may = np.repeat(released <= np.array(wave.departures)[:, None], wave.num_types, axis=0)
+    may = np.repeat(np.array(released, np.int64) <= np.array(wave.departures)[:, None],
+                    wave.num_types, axis=0)
     if problem.may_serve is not None:
         columns = nodes[problem.num_depots:] - problem.num_depots
         may &= np.tile(problem.may_serve[:, columns], (len(wave.departures), 1))

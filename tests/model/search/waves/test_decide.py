@@ -36,7 +36,7 @@ def order(name: str, latest: int = 4 * HOUR, release: int = 0) -> Customer:
 
 
 def coming(place: int) -> list[Coming]:
-    return [Coming(1 + place, order("came", release=NEXT))]
+    return [Coming(1 + place, order("came"), NEXT)]
 
 
 def leaves(plan: Solution) -> list[int]:
