@@ -131,7 +131,8 @@ def _prices(wave: Wave, seen: Sequence[_Seen], config: WaveConfig) -> dict[int, 
     if not seen:
         return {}
     costs = config.price_share * np.mean([each.costs for each in seen], axis=0)
-    return dict(zip(wave.open, costs.tolist(), strict=True))
+    # A detour may be a way that is shorter.
+    return dict(zip(wave.open, np.maximum(costs, 0.0).tolist(), strict=True))
 
 
 def _collect(wave: Wave, must: Set[int], prices: Mapping[int, float], config: WaveConfig,

@@ -12,6 +12,7 @@ from model.problem import Customer, Depot, Problem, Relation, Travel, VehicleTyp
 from model.search.waves.decide import Outlook, WaveConfig, decide, must_leave
 from model.search.waves.future import Coming, Wave
 from model.solution import Solution
+from tests.seeds import seeds
 
 PLACES = -10, -9, 9, 10
 HOUR = 3_600_000
@@ -115,6 +116,18 @@ def test_the_same_seed_decides_the_same_and_the_routes_are_legal() -> None:
     assert check(wave.problem, replace(found.plan, unassigned=rest)).violations == ()
     assert min(route.trips[0].stops[0].departure for route in found.plan.routes) >= NOW
     assert must_leave(wave) <= {*leaves(found.plan)}
+
+
+@pytest.mark.parametrize("seed", seeds(12))
+def test_legs_of_any_length_are_dispatched_legally(seed: int) -> None:
+    rng = np.random.default_rng(seed)
+    wave = wave_of(*((int(rng.integers(4)), order(str(number))) for number in range(5)))
+    minutes = rng.integers(0, 60, (wave.problem.num_nodes,) * 2)
+    travel = Travel(minutes * 60_000, rng.integers(0, 60, minutes.shape) * 1_000_000)
+    wave = replace(wave, problem=replace(wave.problem, travel=(travel,)))
+    found = decide(wave, drawn, FEW)
+    rest = tuple(sorted({*range(1, wave.problem.num_nodes)}.difference(leaves(found.plan))))
+    assert check(wave.problem, replace(found.plan, unassigned=rest)).violations == ()
 
 
 def test_a_decision_is_there_in_time() -> None:
