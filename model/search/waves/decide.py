@@ -31,8 +31,8 @@ from model.solution import Solution, renumbered
 LOOKING = 0.8
 """Share of the time in which futures are looked at; the rest is for the routes that leave."""
 
-FEWEST = 2
-"""Futures at least, however little time there is."""
+FEWEST, LEAST_SECONDS = 2, 0.03
+"""Futures that are looked at however little time there is, and how long at least."""
 
 
 @dataclass(frozen=True)
@@ -98,23 +98,34 @@ def decide(wave: Wave, forecast: Forecast | None, config: WaveConfig) -> WaveDec
     config
         Without a time limit, the same seed gives the same decision.
     """
-    due, must, seen = time.perf_counter() + config.seconds, must_leave(wave), list[_Seen]()
+    due, must = time.perf_counter() + config.seconds, must_leave(wave)
+    seen = list[_Seen]()
     if forecast is not None and len(must) < len(wave.open):
-        looked = due - (1.0 - LOOKING) * config.seconds if config.seconds < math.inf else math.inf
-        for number in range(config.futures):
-            if number >= FEWEST and time.perf_counter() >= looked:
-                break
-            seen.append(_look(wave, forecast, config, number))
+        seen = _look_ahead(wave, forecast, config)
     prices = _prices(wave, seen, config)
     plan = _collect(wave, must, prices, config, due - time.perf_counter())
     return WaveDecision(plan, _outlooks(wave, must, plan, prices, seen))
 
 
-def _look(wave: Wave, forecast: Forecast, config: WaveConfig, number: int) -> _Seen:
+def _look_ahead(wave: Wave, forecast: Forecast, config: WaveConfig) -> list[_Seen]:
+    """Plan as many futures as there is time for, each in as much of it."""
+    seen, seconds = list[_Seen](), LOOKING * config.seconds
+    due, count = time.perf_counter() + seconds, config.futures
+    if seconds < math.inf:
+        count = min(count, max(FEWEST, int(seconds / LEAST_SECONDS)))
+    for number in range(count):
+        each = (due - time.perf_counter()) / (count - number)
+        seen.append(_look(wave, forecast, config, number, each))
+    return seen
+
+
+def _look(wave: Wave, forecast: Forecast, config: WaveConfig, number: int,
+          seconds: float) -> _Seen:
     """Plan a future in which open orders leave when that costs least."""
+    due = time.perf_counter() + seconds
     rng = np.random.default_rng((config.seed, number))
     future = future_of(wave, forecast(rng))
-    plan = _search(future.problem, config, config.turns, number)
+    plan = _search(future.problem, config, config.turns, number, due - time.perf_counter())
     routes = [route for route in plan.routes if route.vehicle_type in future.later_types]
     leaves = {node: future.departure_of(route.vehicle_type) for route in plan.routes
               for node in customers_of(route)}
@@ -151,7 +162,7 @@ def _collect(wave: Wave, must: Set[int], prices: Mapping[int, float], config: Wa
 
 
 def _search(problem: Problem, config: WaveConfig, turns: int, number: int,
-            seconds: float = math.inf) -> Solution:
+            seconds: float) -> Solution:
     """Plan from nothing, by turns, or until a time is over if it is limited."""
     limited = seconds < math.inf
     deadline = time.perf_counter() + seconds if limited else None
