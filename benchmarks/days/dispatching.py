@@ -116,16 +116,18 @@ def main(
     look_ahead: Annotated[int, typer.Option(help="Departures.")] = 2,
     seed: Annotated[int, typer.Option()] = 1,
     every: Annotated[int, typer.Option(help="So many instances, one is replayed.")] = 1,
+    first: Annotated[int, typer.Option(help="Instance, from 0.")] = 0,
     out: Annotated[Path, typer.Option()] = Path("build/dispatching.csv"),
 ) -> None:
     """Replay days, and print how much dearer each was than hindsight."""
     count_processor_time()
-    names = list(published(folder))[::every]
+    names = list(published(folder))[first::every]
     config = WaveConfig(futures, turns, seconds=seconds, seed=seed)
     gaps = []
     for row in appended(out, Outcome, run(folder, names, method, config, look_ahead)):
         gaps.append(row.gap_percent)
-        print(f"{row.instance} {row.method} {row.cost} {row.gap_percent:.2f} % {row.cpu_s:.2f} s")
+        print(f"{row.instance} {row.method} {row.cost} {row.gap_percent:.2f} % {row.cpu_s:.2f} s",
+              flush=True)
     print(f"mean {statistics.mean(gaps):.2f} % of {len(gaps)}")
 
 

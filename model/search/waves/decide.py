@@ -43,7 +43,8 @@ class WaveConfig:
     turns: int = 3000  # of the search in each future
     last_turns: int = 60_000  # of that for the routes that leave; in a limited time, until it ends
     seconds: float = math.inf
-    price_share: float = 1.0  # of what leaving later costs in futures
+    price_share: float = 0.8
+    """Of what leaving later costs in futures: there will be departures that they don't look at."""
     seed: int = 0
 
 

@@ -17,7 +17,7 @@ from tests.seeds import seeds
 PLACES = -10, -9, 9, 10
 HOUR = 3_600_000
 NOW, NEXT = HOUR, 2 * HOUR
-FEW = WaveConfig(futures=6, turns=200, last_turns=200)
+FEW = WaveConfig(futures=6, turns=200, last_turns=200, price_share=1.0)
 
 
 def wave_of(*open_orders: tuple[int, Customer], departures: tuple[int, ...] = (NOW, NEXT)) -> Wave:
