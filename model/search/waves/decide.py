@@ -78,13 +78,20 @@ class _Seen:
 
 
 def must_leave(wave: Wave) -> frozenset[int]:
-    """Return the open orders that no vehicle could serve alone with the next departure."""
-    if not wave.open:
+    """Return the open orders that can leave now, but can't with the next departure.
+
+    That is whoever a plan by all rules leaves out in which all leave then, as far as a first plan
+    tells.
+    """
+    now = future_of(replace(wave, departures=wave.departures[:1]), ()).problem.may_serve
+    if not wave.open or now is None:
         return frozenset()
-    soon = future_of(replace(wave, departures=wave.departures[:2]), ())
-    costs = detours(soon, (), soon.later_types)
-    return frozenset([node for node, cost in zip(wave.open, costs.tolist(), strict=True)
-                      if cost == math.inf])
+    may_leave = {wave.open[index] for index in np.flatnonzero(now.any(axis=0)).tolist()}
+    if len(wave.departures) == 1:
+        return frozenset(may_leave)
+    soon = future_of(replace(wave, departures=wave.departures[1:2]), ())
+    plan = _search(soon.problem, WaveConfig(), 0, 0, math.inf)
+    return frozenset(map(soon.node_of, plan.unassigned)) & may_leave
 
 
 def decide(wave: Wave, forecast: Forecast | None, config: WaveConfig) -> WaveDecision:
@@ -155,7 +162,8 @@ def _collect(wave: Wave, must: Set[int], prices: Mapping[int, float], config: Wa
         return Solution(())
     future = future_of(Wave(wave.problem, going, wave.departures[:1]), ())
     customers = tuple([
-        customer if node in must else replace(customer, unassigned_cost=prices[node])
+        customer if node in must or prices[node] == math.inf
+        else replace(customer, unassigned_cost=prices[node])
         for node, customer in zip(going, future.problem.customers, strict=True)])
     priced = replace(future.problem, customers=customers)
     plan = renumbered(_search(priced, config, config.last_turns, 0, seconds), future.node_of)

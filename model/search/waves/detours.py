@@ -6,7 +6,9 @@ from itertools import pairwise
 
 import numpy as np
 
-from model.problem import MM_PER_KM, MS_PER_HOUR, FloatArray, IntArray, Problem, VehicleType
+from model.problem import (
+    MM_PER_KM, MS_PER_HOUR, UNLIMITED, Customer, FloatArray, IntArray, Problem, VehicleType,
+)
 from model.search.waves.future import Future
 from model.solution import Route, Trip
 
@@ -51,8 +53,14 @@ def _saved(kind: VehicleType, cost: FloatArray, trip: Trip) -> Iterator[tuple[in
     """Yield each order of a trip with what the trip saves without it."""
     at = [stop.node for stop in trip.stops]
     for before, node, behind in zip(at, at[1:], at[2:], strict=False):
-        rest = -kind.fixed_cost if len(at) == 3 else cost[before, behind]
+        rest = -kind.fixed_cost if len(at) == 3 and not trip.sorties else cost[before, behind]
         yield node, float(cost[before, node] + cost[node, behind] - rest)
+
+
+def _may_serve(kind: VehicleType, order: Customer) -> bool:
+    """Tell whether vehicles of a type serve an order themselves, wherever that is."""
+    other = "truck" if kind.flies else "drone"
+    return order.served_by != other and order.skills <= kind.skills
 
 
 @dataclass(frozen=True, eq=False)
@@ -69,28 +77,40 @@ class _Along:
         """The type."""
         return self.problem.vehicle_types[self.index]
 
+    def _order(self, node: int) -> Customer:
+        return self.problem.customers[node - self.problem.num_depots]
+
+    def _window(self, node: int) -> tuple[int, int, int]:
+        """Return when service at a stop may begin first and last, and how long it takes."""
+        if node < self.problem.num_depots:
+            return 0, UNLIMITED, 0
+        order = self._order(node)
+        return order.earliest, order.latest, self.kind.service_at(order)
+
     def legs(self, trip: Trip) -> Iterator[_Leg]:
         """Yield the legs of a trip."""
         kind, at = self.kind, [stop.node for stop in trip.stops]
-        orders = [self.problem.customers[node - self.problem.num_depots] for node in at[1:-1]]
-        used = [sum(amounts) for amounts in zip(*(each.demand for each in orders), strict=True)]
-        room = tuple([most - load for most, load in zip(kind.capacity, used, strict=True)])
+        stops = [self._window(node) for node in at[1:-1]]
+        aboard = [self._order(node) for node in (
+            *(stop.node for stop in trip.customer_stops),
+            *(node for sortie in trip.sorties for node in sortie.nodes))]
+        room = tuple([most - sum(each.demand[dimension] for each in aboard)
+                      for dimension, most in enumerate(kind.capacity)])
         leaves, latest = [kind.earliest], [kind.latest]
         gaps = self.duration[at[:-1], at[1:]].tolist()
-        for gap, each in zip(gaps, orders, strict=False):
-            leaves.append(max(leaves[-1] + gap, each.earliest) + kind.service_at(each))
-        for gap, each in zip(gaps[::-1], orders[::-1], strict=False):
-            latest.append(min(latest[-1] - gap - kind.service_at(each), each.latest))
+        for gap, (opens, _, service) in zip(gaps, stops, strict=False):
+            leaves.append(max(leaves[-1] + gap, opens) + service)
+        for gap, (_, closes, service) in zip(gaps[::-1], stops[::-1], strict=False):
+            latest.append(min(latest[-1] - gap - service, closes))
         for (before, behind), leave, by in zip(pairwise(at), leaves, latest[::-1], strict=True):
             yield _Leg(before, behind, leave, by, room)
 
     def cheapest(self, legs: Sequence[_Leg], nodes: IntArray) -> FloatArray:
         """Return each order's shortest detour from one of some legs, (order,)."""
         kind, first, may_serve = self.kind, self.problem.num_depots, self.problem.may_serve
-        orders = [self.problem.customers[node - first] for node in nodes.tolist()]
+        orders = [self._order(node) for node in nodes.tolist()]
         opens, closes, service = np.array(
-            [(each.earliest, each.latest, kind.service_at(each)) for each in orders],
-            np.int64).reshape(-1, 3).T[:, :, None]
+            [self._window(node) for node in nodes.tolist()], np.int64).reshape(-1, 3).T[:, :, None]
         before, behind, leave, latest = np.array(
             [(leg.before, leg.behind, leg.leave, leg.latest) for leg in legs], np.int64).T
         onward = np.ix_(nodes, behind)
@@ -98,6 +118,7 @@ class _Along:
         fits = (arrival <= closes) & (arrival + service + self.duration[onward] <= latest)
         demand = np.array([each.demand for each in orders]).reshape(len(orders), 1, -1)
         fits &= (demand <= np.array([leg.room for leg in legs])).all(axis=2)
+        fits &= np.array([_may_serve(kind, each) for each in orders])[:, None]
         if may_serve is not None:
             fits &= may_serve[self.index, nodes - first][:, None]
         more = self.cost[np.ix_(before, nodes)].T + self.cost[onward] - self.cost[before, behind]

@@ -8,7 +8,9 @@ import numpy as np
 import pytest
 
 from model.judge.check import check
-from model.problem import Customer, Depot, Problem, Relation, Travel, VehicleType
+from model.problem import (
+    Customer, Depot, DroneType, Problem, Relation, Travel, VehicleType,
+)
 from model.search.waves.decide import Outlook, WaveConfig, decide, must_leave
 from model.search.waves.future import Coming, Wave
 from model.solution import Solution
@@ -85,6 +87,23 @@ def test_all_must_leave_at_the_last_departure() -> None:
     wave = wave_of((3, URGENT), (2, EASY), departures=(NOW,))
     assert must_leave(wave) == {5, 6}
     assert leaves(decide(wave, lambda rng: (), FEW).plan) == [5, 6]
+
+
+def test_one_of_two_leaves_where_a_vehicle_takes_but_one_at_a_time() -> None:
+    wave = wave_of((2, EASY), (3, EASY))
+    one = replace(wave.problem.vehicle_types[0], count=1, capacity=(1000,))
+    wave = replace(wave, problem=replace(wave.problem, vehicle_types=(one,)))
+    assert len(must_leave(wave)) == 1
+    assert len(leaves(decide(wave, None, FEW).plan)) == 1
+
+
+def test_who_only_drones_may_serve_leaves_by_drone() -> None:
+    wave = wave_of((3, replace(EASY, served_by="drone")))
+    van = replace(wave.problem.vehicle_types[0], drones=DroneType(1, (1000,), 0))
+    wave = replace(wave, problem=replace(wave.problem, vehicle_types=(van,)))
+    found = decide(wave, lambda rng: (), FEW)
+    assert [route.trips[0].sorties[0].nodes for route in found.plan.routes] == [(5,)]
+    assert [each.leaves for each in found.outlooks] == [True]
 
 
 def test_nothing_leaves_where_nothing_is_open() -> None:
