@@ -112,8 +112,8 @@ PLAN_LINKS = Table(
     Index("plan_links_by_plan", "owner", "plan"),
 )
 
-DISPATCHES = Table(
-    "dispatches", TABLES,
+DAYS = Table(
+    "days", TABLES,
     Column("id", String(36), primary_key=True),
     Column("owner", String(200), nullable=False),
     Column("client", String(200), nullable=False),
@@ -124,8 +124,23 @@ DISPATCHES = Table(
     Column("expires_at", BigInteger, nullable=False, index=True),
     Column("zone_offset", Integer, nullable=False),  # of the plan's start, in minutes
     Column("time_zone", String(100)),
-    Column("plan", LargeBinary, nullable=False),  # compressed JSON
-    Index("dispatches_by_owner", "owner", "created_at", "id"),
+    Column("plan", LargeBinary, nullable=False),  # compressed JSON; empty: none yet
+    # Of a day that is planned as it goes on; else a plan was sent out, and others plan on from it.
+    Column("name", String(64)),  # that its client gave it
+    Column("problem", LargeBinary),  # compressed JSON, as it was when the day began
+    Column("webhook", Text),
+    Column("plan_within", Float),  # seconds
+    # Numbers of the last event, of the last that the client told, and of the last planned for.
+    Column("revision", BigInteger, nullable=False, server_default="0"),
+    Column("asked", BigInteger, nullable=False, server_default="0"),
+    Column("planned", BigInteger, nullable=False, server_default="0"),
+    Column("plan_number", BigInteger, nullable=False, server_default="0"),
+    # Until when some process plans it, and which; milliseconds since 1970.
+    Column("lease_until", BigInteger),
+    Column("lease_by", String(36)),
+    Column("failure", Text),  # why the last plan failed
+    Index("days_by_owner", "owner", "created_at", "id"),
+    Index("days_by_name", "owner", "name", unique=True),
 )
 LINKS = Table(
     "driver_links", TABLES,
@@ -142,15 +157,20 @@ LINKS = Table(
     Index("links_by_dispatch", "dispatch", "position"),
 )
 EVENTS = Table(
-    "driver_events", TABLES,
-    # Events belong to the vehicle: a new link in place of a lost one goes on with them.
-    Column("dispatch", String(36), primary_key=True),
-    Column("position", Integer, primary_key=True),
-    Column("id", String(36), primary_key=True),
-    Column("number", Integer, nullable=False),  # in order of arrival
-    Column("step", String(40), nullable=False),
-    Column("kind", String(10), nullable=False),
+    "day_events", TABLES,
+    Column("day", String(36), primary_key=True),
+    Column("number", BigInteger, primary_key=True, autoincrement=False),  # in order of arrival
+    # The position of the driver's link who told it: names of events are its own. Empty: any other.
+    Column("origin", String(10), nullable=False),
+    Column("id", String(64), nullable=False),
+    Column("kind", String(20), nullable=False),
     Column("time", BigInteger, nullable=False),
     Column("received_at", BigInteger, nullable=False),
+    # Events belong to the vehicle: a new link in place of a lost one goes on with them.
+    Column("vehicle", Text),
+    Column("step", String(40)),
+    Column("outcome", String(10)),  # of the step
     Column("reason", Text),
+    Column("body", Text),  # JSON: what else was told
+    Index("day_events_by_id", "day", "origin", "id", unique=True),
 )

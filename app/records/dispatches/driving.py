@@ -1,14 +1,20 @@
 """A vehicle's day as its driver sees it, and what the driver tells; waits for the database."""
 
 from datetime import timedelta
+from typing import Any
+
+from pydantic_core import to_json
 
 from app.plans.flights.flight import Flight
 from app.records.clock import now_ms
 from app.records.dispatches.errors import LinkOverError, TooManyEventsError
 from app.records.dispatches.instants import instant, milliseconds
 from app.records.dispatches.links import find_link
-from app.records.dispatches.rows import DispatchRow, EventRow, VehicleLinkRow
-from app.records.dispatches.schemas import DriverDay, EventInput, EventsReply, EventsRequest
+from app.records.dispatches.going_on import GROUNDING
+from app.records.dispatches.rows import DispatchRow, ToldRow, VehicleLinkRow
+from app.records.dispatches.schemas import (
+    BREAKDOWN, DriverDay, EventInput, EventsReply, EventsRequest, StepReply,
+)
 from app.records.dispatches.standing import Standing, standing_of, standing_reply
 from app.records.dispatches.store import DispatchStore
 from app.schemas.errors import InputError, InvalidRequestError
@@ -90,20 +96,43 @@ def tell(store: DispatchStore, token: str, request: EventsRequest) -> EventsRepl
     wrong_by = now - milliseconds(request.now)
     if abs(wrong_by) < TRUE_ENOUGH / timedelta(milliseconds=1):
         wrong_by = 0
-    store.add_events(link, [_row(event, wrong_by, now) for event in request.events], _refuse_more)
+    steps = store.steps(link.id)
+    known = {step.id: step for step in steps}
+    store.add_events(link, [_row(event, link.vehicle, known.get(event.step), wrong_by, now)
+                            for event in request.events], _refuse_more)
     return EventsReply(accepted=[event.id for event in request.events],
-                       standing=standing_reply(_standing(store, link, dispatch),
-                                               store.steps(link.id)))
+                       standing=standing_reply(_standing(store, link, dispatch), steps))
 
 
-def _row(event: EventInput, wrong_by: int, now: int) -> EventRow:
+def _row(event: EventInput, vehicle: str, step: StepReply | None, wrong_by: int,
+         now: int) -> ToldRow:
     """Return an event as it is kept; none is of the future."""
     time = min(milliseconds(event.time) + wrong_by, now)
-    return EventRow(event.id, event.step, event.kind, time, event.reason)
+    told: dict[str, Any] = {"by": "driver"}
+    if step is not None and step.customers:
+        told["orders"] = [each.id for each in step.customers]
+    if step is not None and step.drone is not None:
+        told["drone"] = step.drone
+    return ToldRow(event.id, _kind(event), time, vehicle, event.step, event.kind, event.reason,
+                   to_json(told).decode())
+
+
+_KINDS = {"depart": "vehicle.departed", "stop": "vehicle.served", "return": "vehicle.arrived",
+          "launch": "drone.launched", "recover": "drone.recovered"}
+
+
+def _kind(event: EventInput) -> str:
+    """Return what an event is to who follows the day."""
+    if event.step == BREAKDOWN:
+        return "vehicle.broken"
+    step = event.step.split("-")[1] if event.step.count("-") > 1 else ""
+    if event.kind != "failed":
+        return _KINDS.get(step, "vehicle.served")
+    return "drone.lost" if event.reason in GROUNDING else "vehicle.failed"
 
 
 def _standing(store: DispatchStore, link: VehicleLinkRow, dispatch: DispatchRow) -> Standing:
-    return standing_of(store.events(dispatch.id).get(link.position, []), dispatch.plan_start)
+    return standing_of(store.events(dispatch.id).get(link.vehicle, []), dispatch.plan_start)
 
 
 def _refuse_more(count: int) -> None:

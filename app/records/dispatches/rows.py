@@ -35,7 +35,7 @@ class VehicleLinkRow:
 
 @dataclass(frozen=True)
 class EventRow:
-    """What a driver told."""
+    """What was told of a step."""
 
     id: str
     step: str
@@ -43,3 +43,17 @@ class EventRow:
     time: int
     reason: str | None
     number: int = 0  # in order of arrival
+
+
+@dataclass(frozen=True)
+class ToldRow:
+    """An event that is new: of a vehicle and a step, or of something else."""
+
+    id: str
+    kind: str  # as clients read it
+    time: int
+    vehicle: str | None = None
+    step: str | None = None
+    outcome: EventKind | None = None  # of the step
+    reason: str | None = None
+    body: str | None = None  # JSON: what else was told

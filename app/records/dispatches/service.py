@@ -237,7 +237,7 @@ class DispatchService:
         events = self._store.events(row.id)
         links = []
         for link in self._store.links(row.id):
-            told = events.get(link.position, [])
+            told = events.get(link.vehicle, [])
             links.append(LinkStanding(
                 link, self._store.steps(link.id), standing_of(told, row.plan_start),
                 max((event.time for event in told), default=None)))

@@ -2,16 +2,16 @@
 
 import zlib
 from collections.abc import Callable, Collection, Mapping, Sequence
-from dataclasses import asdict
+from dataclasses import asdict, fields
 from typing import Any
 
 from pydantic import TypeAdapter
 from sqlalchemy import Connection, Engine, delete, func, insert, select, update
 
-from app.database.tables import DISPATCHES, EVENTS, LINKS
+from app.database.tables import DAYS, EVENTS, LINKS
 from app.plans.flights.flight import Flight
 from app.records.clock import now_ms
-from app.records.dispatches.rows import DispatchRow, EventRow, VehicleLinkRow
+from app.records.dispatches.rows import DispatchRow, EventRow, ToldRow, VehicleLinkRow
 from app.records.dispatches.schemas import StepReply
 from app.schemas.plan import PlanInput
 
@@ -40,9 +40,9 @@ LEFT_OUT: dict[str, Any] = {
 }
 """What is left out of plans that are kept."""
 
-_DISPATCH = [column for column in DISPATCHES.c if column.name != "plan"]
+_DISPATCH = [DAYS.c[each.name] for each in fields(DispatchRow)]
 _LINK = [column for column in LINKS.c if column.name not in ("steps", "flights")]
-_EVENT = [EVENTS.c[name] for name in ("id", "step", "kind", "time", "reason", "number")]
+_EVENT = [EVENTS.c[name] for name in ("id", "step", "outcome", "time", "reason", "number")]
 
 
 class DispatchStore:
@@ -55,27 +55,27 @@ class DispatchStore:
             links: Sequence[tuple[VehicleLinkRow, Sequence[StepReply]]], flown: Flown,
             refuse: Callable[[int], None]) -> None:
         """Keep a dispatch unless `refuse` raises, told how many its client has open. In place."""
-        open_ones = (select(func.count()).select_from(DISPATCHES)
-                     .where(DISPATCHES.c.client == dispatch.client,
-                            DISPATCHES.c.ends_at > now_ms()))
+        open_ones = (select(func.count()).select_from(DAYS)
+                     .where(DAYS.c.client == dispatch.client,
+                            DAYS.c.ends_at > now_ms()))
         with self._engine.begin() as connection:
             refuse(connection.scalar(open_ones) or 0)
-            connection.execute(insert(DISPATCHES).values(
+            connection.execute(insert(DAYS).values(
                 **asdict(dispatch), plan=_packed_plan(plan)))
             for link, steps in links:
                 _add_link(connection, link, _packed_work(steps, flown.get(link.vehicle)))
 
     def find(self, dispatch: str) -> DispatchRow | None:
         """Return a dispatch."""
-        statement = select(*_DISPATCH).where(DISPATCHES.c.id == dispatch)
+        statement = select(*_DISPATCH).where(DAYS.c.id == dispatch)
         with self._engine.connect() as connection:
             row = connection.execute(statement).mappings().first()
         return None if row is None else DispatchRow(**row)
 
     def page(self, owner: str, limit: int) -> list[DispatchRow]:
         """Return an owner's dispatches, the youngest first."""
-        statement = (select(*_DISPATCH).where(DISPATCHES.c.owner == owner)
-                     .order_by(DISPATCHES.c.created_at.desc(), DISPATCHES.c.id).limit(limit))
+        statement = (select(*_DISPATCH).where(DAYS.c.owner == owner)
+                     .order_by(DAYS.c.created_at.desc(), DAYS.c.id).limit(limit))
         with self._engine.connect() as connection:
             return [DispatchRow(**row) for row in connection.execute(statement).mappings()]
 
@@ -83,7 +83,7 @@ class DispatchStore:
         """Return the plan of a dispatch that there is."""
         with self._engine.connect() as connection:
             content = connection.scalar(
-                select(DISPATCHES.c.plan).where(DISPATCHES.c.id == dispatch))
+                select(DAYS.c.plan).where(DAYS.c.id == dispatch))
         return PlanInput.model_validate_json(zlib.decompress(content or b""))
 
     def link(self, link: str) -> tuple[VehicleLinkRow, DispatchRow] | None:
@@ -135,7 +135,7 @@ class DispatchStore:
             Links of vehicles that had none, and their steps.
         """
         with self._engine.begin() as connection:
-            connection.execute(update(DISPATCHES).where(DISPATCHES.c.id == dispatch)
+            connection.execute(update(DAYS).where(DAYS.c.id == dispatch)
                                .values(plan=_packed_plan(plan)))
             for link, listed in steps:
                 connection.execute(update(LINKS).where(LINKS.c.id == link.id).values(
@@ -152,8 +152,8 @@ class DispatchStore:
         """End a dispatch now, unless it has ended. In place."""
         now = now_ms()
         with self._engine.begin() as connection:
-            connection.execute(update(DISPATCHES).values(ends_at=now).where(
-                DISPATCHES.c.id == dispatch, DISPATCHES.c.ends_at > now))
+            connection.execute(update(DAYS).values(ends_at=now).where(
+                DAYS.c.id == dispatch, DAYS.c.ends_at > now))
 
     def note_opening(self, link: str) -> None:
         """Note when a link was opened first. In place."""
@@ -161,43 +161,56 @@ class DispatchStore:
             connection.execute(update(LINKS).values(opened_at=now_ms()).where(
                 LINKS.c.id == link, LINKS.c.opened_at.is_(None)))
 
-    def add_events(self, link: VehicleLinkRow, events: Sequence[EventRow],
+    def add_events(self, link: VehicleLinkRow, events: Sequence[ToldRow],
                    refuse: Callable[[int], None]) -> None:
         """Keep events that aren't there yet, in order, unless `refuse` raises. In place.
 
-        `refuse` is told how many there would be.
+        `refuse` is told how many the link would have told.
         """
-        mine = (EVENTS.c.dispatch == link.dispatch, EVENTS.c.position == link.position)
+        origin = str(link.position)
+        mine = (EVENTS.c.day == link.dispatch, EVENTS.c.origin == origin)
         with self._engine.begin() as connection:
             # Of two that tell at once, one waits.
-            connection.execute(select(LINKS.c.id).where(LINKS.c.id == link.id).with_for_update())
+            revision = connection.scalar(select(DAYS.c.revision).where(
+                DAYS.c.id == link.dispatch).with_for_update()) or 0
             there = set(connection.scalars(select(EVENTS.c.id).where(*mine)))
             new = {event.id: event for event in events if event.id not in there}
             refuse(len(there) + len(new))
-            for number, event in enumerate(new.values(), len(there)):
-                connection.execute(insert(EVENTS).values(
-                    **{**asdict(event), "number": number}, dispatch=link.dispatch,
-                    position=link.position, received_at=now_ms()))
+            if new:
+                add_events(connection, link.dispatch, revision, origin, list(new.values()))
 
-    def events(self, dispatch: str) -> dict[int, list[EventRow]]:
-        """Return what was told, by the position of the vehicle."""
-        statement = (select(EVENTS.c.position, *_EVENT).where(EVENTS.c.dispatch == dispatch)
-                     .order_by(EVENTS.c.position, EVENTS.c.number))
-        found: dict[int, list[EventRow]] = {}
+    def events(self, dispatch: str) -> dict[str, list[EventRow]]:
+        """Return what was told of steps, by vehicle."""
+        statement = (select(EVENTS.c.vehicle, *_EVENT)
+                     .where(EVENTS.c.day == dispatch, EVENTS.c.step.is_not(None))
+                     .order_by(EVENTS.c.number))
+        found: dict[str, list[EventRow]] = {}
         with self._engine.connect() as connection:
-            for position, *row in connection.execute(statement):
-                found.setdefault(position, []).append(EventRow(*row))
+            for vehicle, *row in connection.execute(statement):
+                found.setdefault(vehicle, []).append(EventRow(*row))
         return found
+
+
+def add_events(connection: Connection, day: str, revision: int, origin: str,
+               events: Sequence[ToldRow]) -> int:
+    """Keep events that follow the last of a day, and return the number of the last. In place."""
+    received_at = now_ms()
+    connection.execute(insert(EVENTS), [
+        {**asdict(event), "day": day, "origin": origin, "number": number,
+         "received_at": received_at} for number, event in enumerate(events, revision + 1)])
+    last = revision + len(events)
+    connection.execute(update(DAYS).where(DAYS.c.id == day).values(revision=last, asked=last))
+    return last
 
 
 def delete_expired(engine: Engine) -> None:
     """Delete all that is kept of dispatches that expired. In place."""
-    expired = select(DISPATCHES.c.id).where(DISPATCHES.c.expires_at <= now_ms()).limit(BATCH)
+    expired = select(DAYS.c.id).where(DAYS.c.expires_at <= now_ms()).limit(BATCH)
     while True:
         with engine.begin() as connection:
             ids = list(connection.scalars(expired))
-            for table, column in ((EVENTS, EVENTS.c.dispatch), (LINKS, LINKS.c.dispatch),
-                                  (DISPATCHES, DISPATCHES.c.id)):
+            for table, column in ((EVENTS, EVENTS.c.day), (LINKS, LINKS.c.dispatch),
+                                  (DAYS, DAYS.c.id)):
                 connection.execute(delete(table).where(column.in_(ids)))
         if len(ids) < BATCH:
             return

@@ -112,6 +112,34 @@ def test_open_sweeps_count_with_their_scenarios_after_the_upgrade(engine: Engine
     assert run(engine, "SELECT plans FROM jobs ORDER BY id") == [(1,), (1,), (1,), (3,)]
 
 
+def test_what_drivers_told_stays_on_the_way_there_and_back(engine: Engine) -> None:
+    upgrade(engine)
+    downgrade(engine, "0009")
+    run(engine, "INSERT INTO dispatches (id, owner, client, created_at, plan_start, ends_at, "
+        "expires_at, zone_offset, plan) VALUES ('d', 'o', 'c', 1, 1, 2, 3, 0, :plan)",
+        {"plan": b"p"})
+    run(engine, "INSERT INTO driver_links (id, dispatch, position, vehicle, digest, steps) "
+        "VALUES ('l', 'd', 0, 'van-1', :none, :none)", {"none": b""})
+    told = [("d", 0, "e2", 1, "1-stop-ab", "failed", 20, 21, "Nobody there"),
+            ("d", 0, "e1", 0, "1-depart-cd", "done", 10, 11, None)]
+    names = ["dispatch", "position", "id", "number", "step", "kind", "time", "received_at",
+             "reason"]
+    for row in told:
+        run(engine, f"INSERT INTO driver_events ({', '.join(names)}) VALUES (:{', :'.join(names)})",
+            dict(zip(names, row, strict=True)))
+    upgrade(engine)
+    assert run(engine, "SELECT number, kind, vehicle, outcome, reason FROM day_events "
+               "ORDER BY number") == [
+        (1, "vehicle.departed", "van-1", "done", None),
+        (2, "vehicle.failed", "van-1", "failed", "Nobody there")]
+    assert run(engine, "SELECT id, revision FROM days") == [("d", 2)]
+    downgrade(engine, "0009")
+    assert run(engine, "SELECT dispatch, position, id, step, kind, time, received_at, reason "
+               "FROM driver_events ORDER BY number DESC") == [
+        (*row[:3], *row[4:]) for row in told]
+    assert run(engine, "SELECT id FROM dispatches") == [("d",)]
+
+
 def test_half_of_the_tables_are_taken_over_too(engine: Engine) -> None:
     forget_version(engine)
     for table in ("jobs", "job_requests", "job_results"):

@@ -10,7 +10,7 @@ import httpx
 import pytest
 from sqlalchemy import text, update
 
-from app.database.tables import DISPATCHES
+from app.database.tables import DAYS
 from app.records.clock import now_ms
 from app.records.dispatches.schemas import DispatchReply, DriverDay, EventsReply, StepReply
 from app.records.dispatches.standing import ToldStep, standing_reply
@@ -271,13 +271,13 @@ def test_all_is_deleted_when_it_expires(service: httpx.Client, settings: Setting
     told(service, token_of(sent["links"][0]), event("e1", DEPART, today(1)))
     with opened(settings) as engine:
         with engine.begin() as connection:
-            connection.execute(update(DISPATCHES).where(DISPATCHES.c.id == sent["id"])
+            connection.execute(update(DAYS).where(DAYS.c.id == sent["id"])
                                .values(expires_at=now_ms()))
         delete_expired(engine)
         with engine.connect() as connection:
-            for table in ("driver_links", "driver_events"):
-                rows = connection.execute(
-                    text(f"SELECT count(*) FROM {table} WHERE dispatch = :id"), {"id": sent["id"]})
+            for table, column in (("driver_links", "dispatch"), ("day_events", "day")):
+                rows = connection.execute(text(
+                    f"SELECT count(*) FROM {table} WHERE {column} = :id"), {"id": sent["id"]})
                 assert rows.scalar() == 0
     assert service.get(f"/dispatches/{sent['id']}").status_code == 404
     token = token_of(sent["links"][0])
