@@ -31,6 +31,9 @@ from app.plans.desk import CHECKED_AT_ONCE, PlanDesk
 from app.plans.flights.routes import router as flights_router
 from app.plans.routes import router as plans_router
 from app.plans.workplace import opened, opened_with
+from app.records.days.routes import router as days_router
+from app.records.days.runner import AT_ONCE
+from app.records.days.running import running_days
 from app.records.dispatches.pages import mount_drivers_page
 from app.records.dispatches.routes import router as dispatches_router
 from app.records.dispatches.store import delete_expired
@@ -69,9 +72,9 @@ READY_AT_START = 8
 QUICK = 4
 """The level at which plans are compressed: a tenth larger than at 9, in a quarter of the time."""
 
-BESIDE = CHECKED_AT_ONCE + 1
-"""How many may plan beside what settings count: jobs' requests are checked, suspects begin alone.
-"""
+BESIDE = CHECKED_AT_ONCE + 1 + AT_ONCE
+"""How many may plan beside what settings count: jobs' requests are checked, suspects begin alone,
+and days are planned."""
 
 
 def create_app(settings: Settings | None = None, planner: Planner | None = None) -> FastAPI:
@@ -105,8 +108,8 @@ def create_app(settings: Settings | None = None, planner: Planner | None = None)
     observer.enter(app)
     shutdown = prepare_for_load(app, settings)
     for router in (plans_router, flights_router, health_router, jobs_router, dispatches_router,
-                   kept_router, vroom_router, sheets_router, addresses_router, streets_router,
-                   metrics_router(settings)):
+                   days_router, kept_router, vroom_router, sheets_router, addresses_router,
+                   streets_router, metrics_router(settings)):
         app.include_router(router)
     _map_errors(app)
     mount_drivers_page(app)
@@ -148,6 +151,7 @@ def _running(app: FastAPI, settings: Settings, planner: Planner | None,
                                 [delete_expired])
             app.state.gallery.start()
             with (keeping_plans(settings) as app.state.kept, jobs as app.state.jobs,
+                  running_days(settings, app.state.plans, app.state.jobs) as app.state.days,
                   giving_back(lambda: is_asked(app))):
                 yield
             app.state.gallery.stop()

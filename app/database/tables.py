@@ -127,9 +127,7 @@ DAYS = Table(
     Column("plan", LargeBinary, nullable=False),  # compressed JSON; empty: none yet
     # Of a day that is planned as it goes on; else a plan was sent out, and others plan on from it.
     Column("name", String(64)),  # that its client gave it
-    Column("problem", LargeBinary),  # compressed JSON, as it was when the day began
-    Column("webhook", Text),
-    Column("plan_within", Float),  # seconds
+    Column("request", LargeBinary),  # compressed JSON, with which the day began
     # Numbers of the last event, of the last that the client told, and of the last planned for.
     Column("revision", BigInteger, nullable=False, server_default="0"),
     Column("asked", BigInteger, nullable=False, server_default="0"),

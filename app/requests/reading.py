@@ -87,8 +87,8 @@ def read_json(body: bytes) -> Any:
         raise NotJsonError(f"The body is not JSON, {error}: send one JSON object.") from error
 
 
-def read_model(body: bytes, kind: type[Section]) -> Section:
-    """Return what a body states that is no problem to be planned.
+def read_model(body: bytes, kind: type[Section], day: DayOfBody | None = None) -> Section:
+    """Return what a body states that is no problem to be planned; `day` is its own if not stated.
 
     Raises
     ------
@@ -99,7 +99,7 @@ def read_model(body: bytes, kind: type[Section]) -> Section:
     """
     require_readable(body, kind)
     try:
-        return read_body(kind, body)
+        return read_body(kind, body, day)
     except ValidationError as error:
         # An error holds what was sent, which of a long body would take much memory.
         details = error.errors(include_url=False, include_input=len(body) <= MAX_SEARCHED_BYTES)

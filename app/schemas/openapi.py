@@ -54,6 +54,7 @@ TAGS = [
     {"name": "jobs", "description": "Long plans, comparisons and sweeps in the background."},
     {"name": "kept plans", "description": "Plans that are kept by name, and shared by links."},
     {"name": "drivers", "description": "Plans on the road: links for drivers, and what they tell."},
+    {"name": "days", "description": "Days as they happen: events, and a plan after each."},
     {"name": "operations", "description": "For those who run the service."},
 ]
 REFUSALS = {

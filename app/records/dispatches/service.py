@@ -1,7 +1,7 @@
 """Dispatches as their owners see them: send out, follow, revoke; methods wait for the database."""
 
 import uuid
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from datetime import UTC, datetime, timedelta
 
@@ -19,7 +19,7 @@ from app.records.dispatches.rows import DispatchRow, VehicleLinkRow
 from app.records.dispatches.schemas import DispatchRequest, GoingOnReply, StepReply
 from app.records.dispatches.standing import Standing, standing_of
 from app.records.dispatches.steps import StepMaker
-from app.records.dispatches.store import DispatchStore, Flown
+from app.records.dispatches.store import DispatchStore, Flown, Work
 from app.records.dispatches.validation import require_drivable
 from app.requests.conversion.locating import at_addresses
 from app.schemas.check import PlannedProblem
@@ -133,18 +133,10 @@ class DispatchService:
         """
         row = self._open(dispatch, owner)
         require_drivable(request.problem, request.plan)
-        maker = StepMaker(request.problem)
-        steps = {route.vehicle: maker.steps(route) for route in request.plan.routes}
-        there = self._store.links(row.id)
-        known = {link.vehicle for link in there}
-        tokens = {name: DRIVER_TOKENS.make() for name in steps if name not in known}
-        first = 1 + max((link.position for link in there), default=-1)
-        links = [(VehicleLinkRow(token.id, row.id, position, name, token.digest), steps[name])
-                 for position, (name, token) in enumerate(tokens.items(), first)]
-        self._store.change(row.id, request.plan,
-                           [(link, steps.get(link.vehicle, [])) for link in there], links,
-                           self._flown(request, row))
-        return self._followed(row, {token.id: token for token in tokens.values()})
+        work, tokens = work_by(request, self._store.links(row.id), row.id,
+                               self._flown(request, row))
+        self._store.change(row.id, request.plan, work)
+        return self._followed(row, {token.id: token for token in tokens})
 
     def end(self, dispatch: str, owner: str) -> Followed:
         """Let all links of a dispatch open nothing any more; raises as `find` does. In place."""
@@ -242,6 +234,23 @@ class DispatchService:
                 link, self._store.steps(link.id), standing_of(told, row.plan_start),
                 max((event.time for event in told), default=None)))
         return Followed(row, links, tokens)
+
+
+def work_by(request: PlannedProblem, there: Sequence[VehicleLinkRow], dispatch: str,
+            flown: Flown) -> tuple[Work, list[NewToken]]:
+    """Return what vehicles do by a plan, and the tokens of links that it makes.
+
+    `there` are the links that there are: a vehicle that does nothing any more keeps its own.
+    """
+    maker = StepMaker(request.problem)
+    steps = {route.vehicle: maker.steps(route) for route in request.plan.routes}
+    known = {link.vehicle for link in there}
+    tokens = {name: DRIVER_TOKENS.make() for name in steps if name not in known}
+    first = 1 + max((link.position for link in there), default=-1)
+    links = [(VehicleLinkRow(token.id, dispatch, position, name, token.digest), steps[name])
+             for position, (name, token) in enumerate(tokens.items(), first)]
+    return Work([(link, steps.get(link.vehicle, [])) for link in there], links,
+                flown), list(tokens.values())
 
 
 def is_id(text: str) -> bool:

@@ -2,7 +2,7 @@
 
 import zlib
 from collections.abc import Callable, Collection, Mapping, Sequence
-from dataclasses import asdict, fields
+from dataclasses import asdict, dataclass, fields
 from typing import Any
 
 from pydantic import TypeAdapter
@@ -13,6 +13,7 @@ from app.plans.flights.flight import Flight
 from app.records.clock import now_ms
 from app.records.dispatches.rows import DispatchRow, EventRow, ToldRow, VehicleLinkRow
 from app.records.dispatches.schemas import StepReply
+from app.requests.plan_reading import parse_plan
 from app.schemas.plan import PlanInput
 
 FAST = 1
@@ -23,6 +24,16 @@ FLIGHTS = TypeAdapter(list[Flight])
 
 Flown = Mapping[str, Sequence[Flight]]
 """Flights by the vehicle from which they are flown."""
+
+
+@dataclass(frozen=True)
+class Work:
+    """What vehicles do by another plan of their day."""
+
+    steps: Sequence[tuple[VehicleLinkRow, Sequence[StepReply]]]  # that links have from now on
+    links: Sequence[tuple[VehicleLinkRow, Sequence[StepReply]]]  # of vehicles that had none
+    flown: Flown
+
 
 BATCH = 200
 """Dispatches deleted at a time."""
@@ -80,11 +91,11 @@ class DispatchStore:
             return [DispatchRow(**row) for row in connection.execute(statement).mappings()]
 
     def plan(self, dispatch: str) -> PlanInput:
-        """Return the plan of a dispatch that there is."""
+        """Return the plan of a dispatch that there is; nobody drives if there is none yet."""
         with self._engine.connect() as connection:
             content = connection.scalar(
                 select(DAYS.c.plan).where(DAYS.c.id == dispatch))
-        return PlanInput.model_validate_json(zlib.decompress(content or b""))
+        return parse_plan(zlib.decompress(content) if content else b'{"routes": []}')
 
     def link(self, link: str) -> tuple[VehicleLinkRow, DispatchRow] | None:
         """Return a link and the dispatch that it is of."""
@@ -108,6 +119,14 @@ class DispatchStore:
             content = connection.scalar(select(LINKS.c.steps).where(LINKS.c.id == link))
         return STEPS.validate_json(zlib.decompress(content or b""))
 
+    def steps_by_vehicle(self, dispatch: str) -> dict[str, list[StepReply]]:
+        """Return the steps of all vehicles of a dispatch."""
+        statement = (select(LINKS.c.vehicle, LINKS.c.steps).where(LINKS.c.dispatch == dispatch)
+                     .order_by(LINKS.c.revoked_at.is_(None)))
+        with self._engine.connect() as connection:
+            return {vehicle: STEPS.validate_json(zlib.decompress(content))
+                    for vehicle, content in connection.execute(statement)}
+
     def flights(self, link: str) -> list[Flight]:
         """Return the flights of the drones of a link that there is."""
         with self._engine.connect() as connection:
@@ -122,26 +141,12 @@ class DispatchStore:
             _revoke(connection, [former.id])
             _add_link(connection, link, work)
 
-    def change(self, dispatch: str, plan: PlanInput,
-               steps: Sequence[tuple[VehicleLinkRow, Sequence[StepReply]]],
-               links: Sequence[tuple[VehicleLinkRow, Sequence[StepReply]]], flown: Flown) -> None:
-        """Put another plan in a dispatch's place. In place.
-
-        Parameters
-        ----------
-        steps
-            Those that links have from now on.
-        links
-            Links of vehicles that had none, and their steps.
-        """
+    def change(self, dispatch: str, plan: PlanInput, work: Work) -> None:
+        """Put another plan in a dispatch's place. In place."""
         with self._engine.begin() as connection:
             connection.execute(update(DAYS).where(DAYS.c.id == dispatch)
                                .values(plan=_packed_plan(plan)))
-            for link, listed in steps:
-                connection.execute(update(LINKS).where(LINKS.c.id == link.id).values(
-                    **_packed_work(listed, flown.get(link.vehicle))))
-            for new, listed in links:
-                _add_link(connection, new, _packed_work(listed, flown.get(new.vehicle)))
+            put_work(connection, dispatch, work)
 
     def revoke(self, links: Collection[str]) -> None:
         """Let links open nothing any more. In place."""
@@ -201,6 +206,15 @@ def add_events(connection: Connection, day: str, revision: int, origin: str,
     last = revision + len(events)
     connection.execute(update(DAYS).where(DAYS.c.id == day).values(revision=last, asked=last))
     return last
+
+
+def put_work(connection: Connection, dispatch: str, work: Work) -> None:
+    """Have links tell what their vehicles do by another plan. In place."""
+    for link, listed in work.steps:
+        connection.execute(update(LINKS).where(LINKS.c.id == link.id).values(
+            **_packed_work(listed, work.flown.get(link.vehicle))))
+    for new, listed in work.links:
+        _add_link(connection, new, _packed_work(listed, work.flown.get(new.vehicle)))
 
 
 def delete_expired(engine: Engine) -> None:

@@ -44,9 +44,7 @@ def upgrade() -> None:
     op.drop_index("ix_dispatches_expires_at", "dispatches")
     op.rename_table("dispatches", "days")
     op.add_column("days", sa.Column("name", sa.String(64)))
-    op.add_column("days", sa.Column("problem", sa.LargeBinary))
-    op.add_column("days", sa.Column("webhook", sa.Text))
-    op.add_column("days", sa.Column("plan_within", sa.Float))
+    op.add_column("days", sa.Column("request", sa.LargeBinary))
     for name in _NUMBERS:
         op.add_column("days", sa.Column(name, sa.BigInteger, nullable=False, server_default="0"))
     op.add_column("days", sa.Column("lease_until", sa.BigInteger))
@@ -91,16 +89,15 @@ def downgrade() -> None:
         sa.Column("reason", sa.Text),
     )
     op.execute("DELETE FROM driver_links WHERE dispatch IN "
-               "(SELECT id FROM days WHERE problem IS NOT NULL)")
+               "(SELECT id FROM days WHERE request IS NOT NULL)")
     op.execute("DELETE FROM day_events WHERE day IN "
-               "(SELECT id FROM days WHERE problem IS NOT NULL)")
-    op.execute("DELETE FROM days WHERE problem IS NOT NULL")
+               "(SELECT id FROM days WHERE request IS NOT NULL)")
+    op.execute("DELETE FROM days WHERE request IS NOT NULL")
     op.execute(_FROM_EVENTS)
     op.drop_table("day_events")
     for index in ("days_by_owner", "days_by_name", "ix_days_expires_at"):
         op.drop_index(index, "days")
-    for name in ("name", "problem", "webhook", "plan_within", *_NUMBERS, "lease_until", "lease_by",
-                 "failure"):
+    for name in ("name", "request", *_NUMBERS, "lease_until", "lease_by", "failure"):
         op.drop_column("days", name)
     op.rename_table("days", "dispatches")
     op.create_index("dispatches_by_owner", "dispatches", ["owner", "created_at", "id"])

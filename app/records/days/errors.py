@@ -1,0 +1,40 @@
+"""Requests about days that can't be answered."""
+
+from app.schemas.errors import RequestError
+
+
+class UnknownDayError(RequestError, status=404, name="unknown-day"):
+    """There is no such day, or it is another's."""
+
+    title = "There is no such day"
+    always = "No day of yours has this id: it may have expired."
+
+
+class DayTakenError(RequestError, status=409, name="day-taken"):
+    """Another day has the name."""
+
+    title = "Another day has this name"
+    always = "You began another day by this id: choose another, or send the same request."
+
+
+class NoDayPlanError(RequestError, status=409, name="no-day-plan"):
+    """The day has no plan yet."""
+
+    title = "There is no plan yet"
+    always = "The day's first plan isn't made yet: ask again, or follow its events."
+
+
+class DayOverError(RequestError, status=409, name="day-over"):
+    """The day is over."""
+
+    title = "The day is over"
+    always = "What happens now belongs to another day: begin one."
+
+
+class TooManyDayEventsError(RequestError, status=409, name="too-many-day-events"):
+    """A day has as many events as it may."""
+
+    title = "Too much was told of this day"
+
+    def __init__(self, most: int) -> None:
+        super().__init__(f"A day has at most {most} events: begin another.")

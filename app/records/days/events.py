@@ -1,0 +1,141 @@
+"""What a client tells of a day."""
+
+from typing import Annotated, Literal, Self
+
+from pydantic import Discriminator, Field, RootModel, model_validator
+
+from app.schemas.customer import CustomerInput
+from app.schemas.fields import Duration, Input, Instant, Location, Name
+from app.schemas.shipment import ShipmentInput
+
+MAX_EVENTS_AT_ONCE = 1_000
+MAX_REASON = 500
+
+Reason = Annotated[str, Field(max_length=MAX_REASON)]
+
+UNDONE = "Takes back what was told of the same before."
+
+
+class DayEvent(Input):
+    """Something that happens."""
+
+    event_id: Annotated[str, Field(min_length=1, max_length=64)] = Field(
+        description="The event's own name: sent again it counts once.")
+    at: Instant = Field(description="When it happened.")
+
+
+class OrderStated(DayEvent):
+    """An order that is new, or another in place of the one of its id."""
+
+    kind: Literal["order.placed", "order.changed"]
+    customer: CustomerInput | None = Field(None, description="The order, to or from a customer.")
+    shipment: ShipmentInput | None = Field(None, description="The order, from place to place.")
+
+    @model_validator(mode="after")
+    def _is_one(self) -> Self:
+        """Refuse what is no order, or two."""
+        if (self.customer is None) == (self.shipment is None):
+            raise ValueError("an order is a customer or a shipment: state one of them")
+        return self
+
+    @property
+    def order(self) -> str:
+        """Its name."""
+        stated = self.customer or self.shipment
+        assert stated is not None, "checked when it was read"
+        return stated.id
+
+
+class OrderCancelled(DayEvent):
+    """An order that isn't wanted any more."""
+
+    kind: Literal["order.cancelled"]
+    order: Name = Field(description="Id of the customer or the shipment.")
+
+
+class VehicleDeparted(DayEvent):
+    """A vehicle left a depot, or where it begins."""
+
+    kind: Literal["vehicle.departed"]
+    vehicle: Name
+    undone: bool = Field(False, description=UNDONE)
+
+
+class VehicleArrived(DayEvent):
+    """A vehicle is somewhere."""
+
+    kind: Literal["vehicle.arrived"]
+    vehicle: Name
+    order: Name | None = Field(
+        None, description="Whose door it stands at, as the plan's stop is named. Null: its trip "
+        "is over.")
+    undone: bool = Field(False, description=UNDONE)
+
+
+class VehicleServed(DayEvent):
+    """A vehicle, or a drone of it, served somebody, or could not."""
+
+    kind: Literal["vehicle.served", "vehicle.failed"]
+    vehicle: Name
+    order: Name = Field(description="Whom, as the plan's stop is named.")
+    reason: Reason | None = Field(None, description="Why not.")
+    undone: bool = Field(False, description=UNDONE)
+
+
+class VehicleBroken(DayEvent):
+    """A vehicle has broken down; `undone`: it goes on."""
+
+    kind: Literal["vehicle.broken"]
+    vehicle: Name
+    reason: Reason | None = None
+    undone: bool = Field(False, description=UNDONE)
+
+
+class VehicleDelayed(DayEvent):
+    """A vehicle will be later at its next stop than planned."""
+
+    kind: Literal["vehicle.delayed"]
+    vehicle: Name
+    by: Duration = Field(description="How many seconds.")
+
+
+class VehiclePosition(DayEvent):
+    """Where a vehicle is."""
+
+    kind: Literal["vehicle.position"]
+    vehicle: Name
+    location: Location = Field(description="As locations of the day's problem are.")
+
+
+class DroneFlown(DayEvent):
+    """A drone took off from its vehicle, or is back on it."""
+
+    kind: Literal["drone.launched", "drone.recovered"]
+    drone: Name
+    order: Name | None = Field(None, description="One of those it flies to. Null: its next flight.")
+    undone: bool = Field(False, description=UNDONE)
+
+
+class DroneLost(DayEvent):
+    """A drone flies no more; of the flight it is on, nobody was served."""
+
+    kind: Literal["drone.lost"]
+    drone: Name
+    reason: Reason | None = None
+
+
+class Clock(DayEvent):
+    """What time it is. A day that was told once goes by the times it is told, not by the clock."""
+
+    kind: Literal["clock"]
+
+
+AnyEvent = Annotated[
+    OrderStated | OrderCancelled | VehicleDeparted | VehicleArrived | VehicleServed
+    | VehicleBroken | VehicleDelayed | VehiclePosition | DroneFlown | DroneLost | Clock,
+    Discriminator("kind")]
+
+
+class DayEventsRequest(RootModel[Annotated[
+        list[AnyEvent], Field(min_length=1, max_length=MAX_EVENTS_AT_ONCE)]]):
+    """What happened, in any order."""

@@ -1,0 +1,121 @@
+"""A day's events -> how it stands."""
+
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass, field
+from typing import Any
+
+from app.records.days.rows import LoggedEvent
+from app.records.dispatches.going_on import GROUNDING
+from app.records.dispatches.rows import EventRow
+from app.records.dispatches.standing import Standing, is_broken, of_steps, standing_of
+from app.schemas.plan import PlanInput, StopInput, VisitInput
+
+Data = dict[str, Any]
+
+
+CLIENTS = frozenset({
+    "order.placed", "order.changed", "order.cancelled", "vehicle.departed", "vehicle.arrived",
+    "vehicle.served", "vehicle.failed", "vehicle.broken", "vehicle.delayed", "vehicle.position",
+    "drone.launched", "drone.recovered", "drone.lost", "clock"})
+"""Kinds of events that clients and drivers tell; others are the service's own."""
+
+KINDS = (*sorted(CLIENTS), "day.begun", "plan.changed", "eta.changed", "order.at_risk")
+
+
+@dataclass
+class Told:
+    """What was told of a day so far."""
+
+    customers: dict[str, Data]
+    shipments: dict[str, Data]
+    cancelled: dict[str, Data] = field(default_factory=dict)
+    standings: dict[str, Standing] = field(default_factory=dict)  # by vehicle
+    elsewhere: dict[str, str] = field(default_factory=dict)  # orders served by another than planned
+    lost: set[str] = field(default_factory=set)  # drones
+    delays: list[LoggedEvent] = field(default_factory=list)
+    positions: dict[str, tuple[float, float]] = field(default_factory=dict)
+    told_at: dict[str, int] = field(default_factory=dict)  # by vehicle, milliseconds since 1970
+    clock: int | None = None  # the latest time, of a day that goes by what it is told
+    etas: dict[str, float] = field(default_factory=dict)  # that were told, by order
+    at_risk: set[str] = field(default_factory=set)
+
+    @property
+    def out(self) -> list[str]:
+        """Vehicles and drones that do nothing more."""
+        broken = [vehicle for vehicle, standing in self.standings.items() if is_broken(standing)]
+        return [*broken, *sorted(self.lost)]
+
+    def count(self, vehicle: str) -> tuple[int, int]:
+        """Return how many steps of a vehicle were told to be done, and to have failed."""
+        outcomes = [told.outcome for told in of_steps(self.standings.get(vehicle, {})).values()]
+        return outcomes.count("done"), outcomes.count("failed")
+
+
+def fold(problem: Mapping[str, Any], events: Iterable[LoggedEvent], plan_start: int) -> Told:
+    """Return how a day stands that began with a problem.
+
+    What was told late is put where it belongs: events count in the order of their times.
+    """
+    told = Told({each["id"]: each for each in problem.get("customers", ())},
+                {each["id"]: each for each in problem.get("shipments", ())})
+    listed = list(events)
+    for event in sorted(listed, key=lambda event: (event.time, event.number)):
+        _take(told, event)
+    if any(event.kind == "clock" for event in listed):
+        told.clock = max(event.time for event in listed if event.kind in CLIENTS)
+    steps: dict[str, list[EventRow]] = {}
+    for event in listed:
+        if event.vehicle is not None and event.step is not None and event.outcome is not None:
+            steps.setdefault(event.vehicle, []).append(EventRow(
+                event.id, event.step, event.outcome, event.time, event.reason, event.number))
+    told.standings = {vehicle: standing_of(rows, plan_start) for vehicle, rows in steps.items()}
+    return told
+
+
+def _take(told: Told, event: LoggedEvent) -> None:
+    """Have an event count. In place."""
+    about = event.about
+    if event.kind in ("order.placed", "order.changed"):
+        _state(told, about)
+    elif event.kind == "order.cancelled":
+        _cancel(told, about["order"])
+    elif event.kind == "drone.lost" or (event.reason in GROUNDING and "drone" in about):
+        told.lost.add(about["drone"])
+    elif event.kind == "vehicle.delayed":
+        told.delays.append(event)
+    elif event.kind == "vehicle.position" and event.vehicle is not None:
+        told.positions[event.vehicle] = (about["location"][0], about["location"][1])
+    elif event.kind == "vehicle.served" and event.step is None and event.vehicle is not None:
+        told.elsewhere[about["order"]] = event.vehicle
+    elif event.kind == "eta.changed":
+        told.etas[about["order"]] = about["arrival"]
+    elif event.kind == "order.at_risk":
+        (told.at_risk.add if about["at_risk"] else told.at_risk.discard)(about["order"])
+    if event.vehicle is not None and event.kind in CLIENTS:
+        told.told_at[event.vehicle] = event.time
+
+
+def _state(told: Told, about: Mapping[str, Any]) -> None:
+    kind, orders = (("customer", told.customers) if "customer" in about
+                    else ("shipment", told.shipments))
+    order = about[kind]
+    orders[order["id"]] = order
+    told.cancelled.pop(order["id"], None)
+
+
+def _cancel(told: Told, order: str) -> None:
+    for orders in (told.customers, told.shipments):
+        if order in orders:
+            told.cancelled[order] = orders.pop(order)
+
+
+def visits(plan: PlanInput) -> Iterator[tuple[str, str, StopInput | VisitInput]]:
+    """Yield the orders of a plan, by stop and by drone: its name, the vehicle, and the visit."""
+    for route in plan.routes:
+        for trip in route.trips:
+            for stop in trip.stops:
+                if stop.kind == "customer":
+                    yield stop.customer, route.vehicle, stop
+            for sortie in trip.sorties:
+                for visit in sortie.customers:
+                    yield visit.customer, route.vehicle, visit

@@ -1,0 +1,81 @@
+"""What follows from a day's new plan: what clients and customers are told of it."""
+
+from collections.abc import Iterator, Mapping
+from typing import Any
+
+from pydantic_core import to_json
+
+from app.records.days.fold import Data, Told, visits
+from app.records.dispatches.rows import ToldRow
+from app.records.dispatches.standing import of_steps
+from app.records.dispatches.steps import flight_id, stop_ids
+from app.schemas.plan import PlanInput, TripInput
+from app.schemas.request import PlanRequest
+
+
+def news_of(number: int, at: int, told: Told, before: PlanInput | None, plan: PlanInput,
+            reply: Mapping[str, Any], problem: PlanRequest, threshold: float) -> list[ToldRow]:
+    """Return the events of a plan that was just made, `at` being now in ms since 1970."""
+    was = {order: vehicle for order, vehicle, _ in visits(before or PlanInput(routes=()))}
+    moved = sum(was.get(order, vehicle) != vehicle for order, vehicle, _ in visits(plan))
+    rows = [_row(number, at, "plan.changed", "", {
+        "plan_number": number, "cost": reply["cost"]["total"], "moved": moved,
+        "left_out": len(reply["unassigned"])})]
+    served = served_orders(plan, told)
+    for order, vehicle, visit in visits(plan):
+        told_before = told.etas.get(order)
+        if order not in served and (
+                told_before is None or abs(visit.arrival - told_before) > threshold):
+            rows.append(_row(number, at, "eta.changed", order, {
+                "order": order, "arrival": visit.arrival, "before": told_before}, vehicle))
+    risks = dict(_risks(plan, reply, problem, served))
+    rows += [_row(number, at, "order.at_risk", order, {"order": order, "at_risk": True, **why})
+             for order, why in risks.items() if order not in told.at_risk]
+    rows += [_row(number, at, "order.at_risk", order, {"order": order, "at_risk": False})
+             for order in sorted(told.at_risk - risks.keys())]
+    return rows
+
+
+def _row(number: int, at: int, kind: str, order: str, about: Data,
+         vehicle: str | None = None) -> ToldRow:
+    return ToldRow(f"{number}:{kind[:3]}:{order}"[:64], kind, at, vehicle,
+                   body=to_json(about).decode())
+
+
+def served_orders(plan: PlanInput, told: Told) -> dict[str, bool]:
+    """Return the orders of a plan of which was told that they were served, or (False) were not."""
+    served: dict[str, bool] = {}
+    for route in plan.routes:
+        standing = of_steps(told.standings.get(route.vehicle, {}))
+        for index, trip in enumerate(route.trips):
+            for order, step in order_steps(index, trip):
+                if step in standing and (standing[step].outcome == "failed" or "-launch-" not in
+                                         step):
+                    served[order] = standing[step].outcome == "done"
+    return served
+
+
+def order_steps(index: int, trip: TripInput) -> Iterator[tuple[str, str]]:
+    """Yield the orders of a trip, each with the steps that tell what became of it."""
+    for place, stop in enumerate(trip.stops):
+        if stop.kind == "customer":
+            yield stop.customer, stop_ids(index, trip, place)[0]
+    for sortie in trip.sorties:
+        for visit in sortie.customers:
+            yield visit.customer, flight_id(index, "launch", sortie)
+            yield visit.customer, flight_id(index, "recover", sortie)
+
+
+def _risks(plan: PlanInput, reply: Mapping[str, Any], problem: PlanRequest,
+           served: Mapping[str, bool]) -> Iterator[tuple[str, Data]]:
+    """Yield the orders that a plan leaves out, or reaches after their windows."""
+    for left in reply["unassigned"]:
+        reasons = left.get("reasons") or [{}]
+        yield left["id"], {"why": "left_out", "reason": reasons[0]}
+    latest = {customer.id: max((float("inf") if window.latest is None else window.latest
+                                for window in customer.windows), default=float("inf"))
+              for customer in problem.customers}
+    for order, _, visit in visits(plan):
+        late = visit.service_start - latest.get(order, float("inf"))
+        if late > 0 and order not in served:
+            yield order, {"why": "late", "by": late}

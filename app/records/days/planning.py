@@ -1,0 +1,144 @@
+"""How a day stands -> the request of its next plan."""
+
+import re
+from collections.abc import Collection, Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import Any
+
+from app.records.days.fold import Data, Told
+from app.records.dispatches.going_on import OnTheRoad, going_on
+from app.records.dispatches.schemas import GoingOnReply, StepReply
+from app.records.dispatches.steps import stop_ids
+from app.schemas.errors import InputError
+from app.schemas.plan import PlanInput, RouteInput, StopInput
+
+SEARCHING, LEAST_SEARCHING = 0.3, 0.1
+"""Share of the time from an event to its plan that is searched, since an event that comes while a
+plan is made waits for that first; and the fewest seconds."""
+
+NOBODY = PlanInput(routes=())
+
+_STEP = re.compile(r"\.(\w+)|\[(\d+)\]")
+
+
+@dataclass(frozen=True)
+class DayAsked:
+    """What is asked for a day's next plan."""
+
+    request: Data
+    going: GoingOnReply | None = None
+    kept: Sequence[str] = field(default_factory=tuple)  # cancelled, or served by others: too late
+
+
+def asked(stated: Data, told: Told, plan: PlanInput | None,
+          steps: Mapping[str, Sequence[StepReply]], now: float, seen: int,
+          kept: Collection[str] = ()) -> DayAsked:
+    """Return the request of `POST /plan` that goes on from a day's plan.
+
+    Parameters
+    ----------
+    stated
+        With what the day began.
+    told
+        What was told since.
+    plan
+        The plan before; None: there is none.
+    steps
+        What vehicles do by it.
+    now
+        In seconds since plan start.
+    seen
+        Number of the last event that the plan counts with.
+    kept
+        Orders that stay although they were cancelled, as a vehicle is on its way to them.
+    """
+    within = float(stated.get("plan_within", 2.0))
+    options = {**stated["problem"].get("options", {}), "times": "seconds"}
+    options["time_limit"] = min(options.get("time_limit", within),
+                                max(LEAST_SEARCHING, SEARCHING * within))
+    request = {**stated["problem"], "options": options}
+    failed: dict[str, float] = {}
+    if plan is None:
+        replan: Data = {"plan": {"routes": []}, "freeze_before": now}
+        going = None
+    else:
+        late = delayed(plan, told, steps, seen)
+        vehicles = {route.vehicle: OnTheRoad(steps.get(route.vehicle, ()),
+                                             told.standings.get(route.vehicle, {}))
+                    for route in late.routes}
+        going = going_on(late, vehicles, now)
+        replan = dict(going.replan)
+        failed = {each.customer: each.parcel_back for each in going.failed if each.is_open}
+    replan["unavailable"] = [*dict.fromkeys([*replan.get("unavailable", ()), *told.out])]
+    request["replan"] = replan
+    for name, orders in (("customers", told.customers), ("shipments", told.shipments)):
+        back = {order: each for order, each in told.cancelled.items()
+                if order in kept and ("delivery" in each) == (name == "shipments")}
+        wanted = {order: each for order, each in orders.items()
+                  if order not in told.elsewhere or order in kept}
+        request[name] = [_released(each, failed.get(order))
+                         for order, each in {**wanted, **back}.items()]
+    return DayAsked(request, going, tuple(kept))
+
+
+def _released(order: Data, at: float | None) -> Data:
+    """Return an order whose parcel is at the depot again from some time on."""
+    return order if at is None else {**order, "release_time": at}
+
+
+def delayed(plan: PlanInput, told: Told, steps: Mapping[str, Sequence[StepReply]],
+            seen: int) -> PlanInput:
+    """Return a plan with the ways longer that vehicles were told to be late on, since it was made.
+    """
+    late: dict[str, float] = {}
+    for event in told.delays:
+        if event.number > seen and event.vehicle is not None:
+            late[event.vehicle] = late.get(event.vehicle, 0.0) + float(event.about["by"])
+    if not late:
+        return plan
+    return plan.model_copy(update={"routes": tuple([
+        _delayed(route, late[route.vehicle], told) if route.vehicle in late else route
+        for route in plan.routes])})
+
+
+def _delayed(route: RouteInput, by: float, told: Told) -> RouteInput:
+    """Return a route all of which that wasn't told is later, but for what waits for it anyway."""
+    standing = told.standings.get(route.vehicle, {})
+    trips, is_behind = [], False
+    for index, trip in enumerate(route.trips):
+        stops, start = [], len(trip.stops)
+        for place, stop in enumerate(trip.stops):
+            if not is_behind and not any(step in standing
+                                         for step in stop_ids(index, trip, place)):
+                is_behind = place > 0 or index > 0
+                start = place
+            stops.append(_later(stop, by) if is_behind else stop)
+        flights = tuple([sortie if sortie.launch_stop < start else sortie.model_copy(update={
+            "launch_time": sortie.launch_time + by, "recovery_time": sortie.recovery_time + by,
+            "customers": tuple([visit.model_copy(update={
+                name: getattr(visit, name) + by
+                for name in ("arrival", "service_start", "departure")})
+                for visit in sortie.customers])}) for sortie in trip.sorties])
+        trips.append(trip.model_copy(update={"stops": tuple(stops), "sorties": flights}))
+    return route.model_copy(update={"trips": tuple(trips)})
+
+
+def _later(stop: StopInput, by: float) -> StopInput:
+    return stop.model_copy(update={name: getattr(stop, name) + by
+                                   for name in ("arrival", "service_start", "departure")})
+
+
+def too_late(errors: Collection[InputError], request: Mapping[str, Any], told: Told) -> set[str]:
+    """Return the orders that a request lacks, and that can't be taken back any more."""
+    gone = {*told.cancelled, *told.elsewhere}
+    names = [_name_at(request, error.path) for error in errors
+             if error.code == "UNKNOWN_CUSTOMER" and error.path.startswith("$.replan.")]
+    return {order for order in gone
+            if any(name == order or name.startswith(f"{order}/") for name in names)}
+
+
+def _name_at(request: Mapping[str, Any], path: str) -> str:
+    at: Any = request
+    for name, index in _STEP.findall(path):
+        at = at[int(index)] if index else at[name]
+    return str(at["id"] if isinstance(at, Mapping) else at)

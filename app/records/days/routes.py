@@ -1,0 +1,141 @@
+"""Endpoints of days."""
+
+import asyncio
+from collections.abc import AsyncGenerator
+from functools import partial
+from typing import Annotated
+
+from fastapi import APIRouter, Header, Path, Query, Request, Response
+from pydantic import BaseModel
+from pydantic_core import to_json
+from sqlalchemy import Engine
+from sse_starlette import EventSourceResponse, ServerSentEvent
+
+from app.records.days.events import DayEventsRequest
+from app.records.days.fold import KINDS
+from app.records.days.rows import DayRow
+from app.records.days.runner import DayRunner
+from app.records.days.schemas import (
+    DayEventsReply, DayPlanReply, DayReply, DayRequest, LoggedReply,
+)
+from app.records.days.service import DayService, logged
+from app.records.days.store import DayStore
+from app.records.jobs.events import while_admitted
+from app.records.prepared import Database, PreparedDatabase
+from app.requests.bounds import Bounds
+from app.schemas.openapi import event_stream, json_body, problems
+from app.serving.access.guard import Guard, Jobs
+from app.serving.load.bodies import Body
+
+router = APIRouter(tags=["days"])
+
+LOOK = 0.2
+"""Seconds between two looks for what happened, for each who follows."""
+
+HEARTBEAT = 15
+"""Seconds after which a stream says that it is alive."""
+
+UNAVAILABLE = "The database can't be reached: try again soon."
+FOUND = problems(_404="There is no such day, or it is another's.",
+                 _422="A parameter is not valid.", _503=UNAVAILABLE)
+BEGUN = problems(400, 413, 422, _409="Another day has this name.",
+                 _429="A rate limit is used up, or too many of your days are open.",
+                 _503=UNAVAILABLE)
+TOLD = problems(400, 413, 422, _404="There is no such day, or it is another's.",
+                _409="The day is over, or full.", _503=UNAVAILABLE)
+
+DayId = Annotated[str, Path(max_length=64, description="Id of the day.")]
+
+
+@router.post("/days", summary="Begin a day", status_code=201, response_model=DayReply,
+             responses=BEGUN, openapi_extra=json_body(DayRequest))
+async def begin_day(request: Request, principal: Jobs, database: Database,
+                    body: Body) -> Response:
+    """Keep a day, which is planned at once and after each of its events."""
+    def begin(engine: Engine) -> DayReply:
+        service = _service(request, engine)
+        row = service.begin(body.content, principal.key_id, principal.client)
+        return service.read(row.id, principal.key_id)
+
+    reply = await database.reach(begin)
+    _hurry(request)
+    return _json(reply, 201, {"Location": f"/days/{reply.id}"})
+
+
+@router.get("/days/{day_id}", summary="Read how a day stands", response_model=DayReply,
+            responses=FOUND)
+async def read_day_state(request: Request, day_id: DayId, principal: Jobs,
+                         database: Database) -> Response:
+    """Return its orders, its vehicles, and whether the plan counts with all that was told."""
+    return _json(await database.reach(
+        lambda engine: _service(request, engine).read(day_id, principal.key_id)))
+
+
+@router.post("/days/{day_id}/events", summary="Tell what happened", status_code=202,
+             response_model=DayEventsReply, responses=TOLD,
+             openapi_extra=json_body(DayEventsRequest))
+async def tell_day(request: Request, day_id: DayId, principal: Jobs, database: Database,
+                   body: Body) -> Response:
+    """Keep events, all or none; those that were told before count once. A plan follows."""
+    reply = await database.reach(lambda engine: _service(request, engine).tell(
+        day_id, principal.key_id, body.content))
+    _hurry(request)
+    return _json(reply, 202)
+
+
+@router.get("/days/{day_id}/plan", summary="Read a day's plan", response_model=DayPlanReply,
+            responses=FOUND | problems(_409="There is no plan yet."))
+async def read_day_plan(request: Request, day_id: DayId, principal: Jobs,
+                        database: Database) -> Response:
+    """Return the plan that counts now: what has happened, and what is to be done."""
+    reply = await database.reach(lambda engine: _service(request, engine).plan(
+        day_id, principal.key_id))
+    return Response(to_json(reply), media_type="application/json")
+
+
+@router.get("/days/{day_id}/events", summary="Follow a day", response_class=EventSourceResponse,
+            responses={200: {"description": "Server-sent events, each of its kind.",
+                             "content": event_stream(**dict.fromkeys(KINDS, LoggedReply))},
+                       **FOUND})
+async def follow_day(
+    request: Request, day_id: DayId, principal: Jobs, database: Database,
+    last_event_id: Annotated[str | None, Header(
+        alias="Last-Event-ID", max_length=40,
+        description="Number of the last event received, after which to go on.")] = None,
+    after: Annotated[int, Query(ge=0, description="The same, for who can't send headers.")] = 0,
+) -> EventSourceResponse:
+    """Stream all that happens, from the beginning or behind the last event received."""
+    guard: Guard = request.app.state.guard
+    row = await database.reach(
+        lambda engine: _service(request, engine).find(day_id, principal.key_id))
+    seen = int(last_event_id) if last_event_id and last_event_id.isdecimal() else after
+    return EventSourceResponse(
+        while_admitted(_events(database, row, seen), lambda: guard.still_admits(principal)),
+        ping=HEARTBEAT)
+
+
+async def _events(database: PreparedDatabase, row: DayRow,
+                  seen: int) -> AsyncGenerator[ServerSentEvent]:
+    while True:
+        log = partial(lambda after, engine: DayStore(engine).log(row.id, after), seen)
+        for event in await database.reach(log):
+            yield ServerSentEvent(logged(row, event).model_dump_json(), event=event.kind,
+                                  id=str(event.number))
+            seen = event.number
+        await asyncio.sleep(LOOK)
+
+
+def _service(request: Request, engine: Engine) -> DayService:
+    settings = request.app.state.settings
+    return DayService(DayStore(engine), settings, Bounds.of_plans(settings),
+                      request.app.state.plans.policies)
+
+
+def _hurry(request: Request) -> None:
+    runner: DayRunner | None = request.app.state.days
+    if runner is not None:
+        runner.hurry()
+
+
+def _json(reply: BaseModel, status: int = 200, headers: dict[str, str] | None = None) -> Response:
+    return Response(reply.model_dump_json(), status, headers, media_type="application/json")

@@ -1,0 +1,60 @@
+"""Days and their events as the database has them. Times in milliseconds since 1970."""
+
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+from pydantic_core import from_json
+
+from app.records.dispatches.schemas import EventKind
+
+
+@dataclass(frozen=True)
+class DayRow:
+    """A day without what it began with, its plan and its events."""
+
+    id: str
+    owner: str
+    client: str
+    created_at: int
+    plan_start: int
+    ends_at: int
+    expires_at: int
+    zone_offset: int  # minutes
+    time_zone: str | None
+    name: str | None = None
+    revision: int = 0
+    asked: int = 0
+    planned: int = 0
+    plan_number: int = 0
+    failure: str | None = None
+
+    @property
+    def told_name(self) -> str:
+        """What its client calls it."""
+        return self.name or self.id
+
+    def seconds(self, time: int) -> float:
+        """Return an instant in seconds since plan start."""
+        return (time - self.plan_start) / 1000
+
+
+@dataclass(frozen=True)
+class LoggedEvent:
+    """An event of a day."""
+
+    number: int
+    origin: str
+    id: str
+    kind: str
+    time: int
+    vehicle: str | None
+    step: str | None
+    outcome: EventKind | None
+    reason: str | None
+    body: str | None
+
+    @cached_property
+    def about(self) -> dict[str, Any]:
+        """What else was told."""
+        return {} if self.body is None else dict(from_json(self.body))

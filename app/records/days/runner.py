@@ -1,0 +1,204 @@
+"""Plans days, each as soon as something was told of it, whichever process it was told to."""
+
+import logging
+import threading
+import time
+import uuid
+from collections.abc import Callable
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import replace
+from datetime import UTC, datetime
+from http import HTTPStatus
+from typing import Any
+
+from pydantic_core import from_json, to_json
+from sqlalchemy import Engine
+from sqlalchemy.exc import SQLAlchemyError
+
+from app.maps.roads.roads import Roads
+from app.plans.flights.answering import flights_by_vehicle
+from app.records.clock import now_ms
+from app.records.days.fold import Told, fold
+from app.records.days.news import news_of
+from app.records.days.planning import DayAsked, asked, too_late
+from app.records.days.rows import DayRow
+from app.records.days.schemas import ETA_THRESHOLD
+from app.records.days.store import DayStore
+from app.records.dispatches.instants import PlanStart, instant, milliseconds
+from app.records.dispatches.service import work_by
+from app.records.dispatches.store import DispatchStore
+from app.records.dispatches.validation import require_drivable
+from app.requests.conversion.locating import at_addresses
+from app.requests.plan_reading import parse_plan
+from app.schemas.check import PlannedProblem
+from app.schemas.errors import InvalidRequestError, RequestError
+from app.schemas.plan import PlanInput
+from app.schemas.request import PlanRequest
+from app.schemas.times import read_body
+from app.serving.settings import Settings
+
+logger = logging.getLogger(__name__)
+
+LOOK = 0.1
+"""Seconds between two looks for days that were told of elsewhere."""
+
+AT_ONCE = 2
+"""Days that one process plans at once."""
+
+LEASE, RENEWAL = 4.0, 1.0
+"""Seconds for which a day is one process's, which says so anew while it plans: then another's."""
+
+RETRY = 1.0
+"""Seconds between two looks while the database can't be reached."""
+
+HOUR_MS = 3_600_000
+
+Plan = Callable[[bytes, Callable[[], bool]], bytes]
+"""Answers a request of `POST /plan`, unless it is told to stop."""
+
+
+class DayRunner:
+    """Plans days in threads of this process.
+
+    Parameters
+    ----------
+    engine
+        Connections to the database.
+    plan
+        Has a plan made.
+    settings
+        How long days are kept.
+    roads
+        Those that the service has.
+    is_prepared
+        Tells whether the database has its tables.
+    """
+
+    def __init__(self, engine: Engine, plan: Plan, settings: Settings, roads: Roads,
+                 is_prepared: Callable[[], bool]) -> None:
+        self._store = DayStore(engine)
+        self._dispatches = DispatchStore(engine)
+        self._plan = plan
+        self._settings = settings
+        self._roads = roads
+        self._is_prepared = is_prepared
+        self._stopping = threading.Event()
+        self._told = threading.Event()
+        self._by = str(uuid.uuid4())
+        self._free = threading.Semaphore(AT_ONCE)
+        self._pool = ThreadPoolExecutor(AT_ONCE, thread_name_prefix="day")
+        self._looking = threading.Thread(target=self._look, name="days", daemon=True)
+
+    def start(self) -> None:
+        """Plan days from now on. In place."""
+        self._looking.start()
+
+    def stop(self) -> None:
+        """Leave days to other processes. In place."""
+        self._stopping.set()
+        self._told.set()
+        if self._looking.is_alive():
+            self._looking.join()
+        self._pool.shutdown()
+
+    def hurry(self) -> None:
+        """Look at once, as something was told. In place."""
+        self._told.set()
+
+    def _look(self) -> None:
+        while not self._stopping.is_set():
+            self._free.acquire()
+            try:
+                day = self._store.claim(self._by, LEASE) if self._is_prepared() else None
+            except SQLAlchemyError as error:
+                logger.warning("days can't be planned: %s", type(error).__name__)
+                day = None
+                self._stopping.wait(RETRY)
+            if day is None:
+                self._free.release()
+                self._told.wait(LOOK)
+                self._told.clear()
+            else:
+                self._pool.submit(self._planned, day)
+
+    def _planned(self, day: DayRow) -> None:
+        """Plan a day that is this process's. In place."""
+        try:
+            self._make(day)
+        except RequestError as error:
+            # What others don't answer now they may later: the day is taken up again.
+            if error.status != HTTPStatus.SERVICE_UNAVAILABLE:
+                details = "; ".join(each.message for each in error.errors)
+                self._store.fail(day, self._by, details or str(error))
+        except SQLAlchemyError as error:
+            logger.warning("a day's plan can't be kept: %s", type(error).__name__)
+        except Exception:
+            logger.exception("a day can't be planned")
+            self._store.fail(day, self._by, "The plan could not be made.")
+        finally:
+            self._free.release()
+            self._told.set()
+
+    def _make(self, day: DayRow) -> None:
+        stated = self._store.request(day.id)
+        log = [event for event in self._store.log(day.id) if event.number <= day.revision]
+        told = fold(stated["problem"], log, day.plan_start)
+        content = self._store.plan(day.id)
+        before = None if content is None else parse_plan(to_json(content))
+        now = max(0.0, day.seconds(now_of(told)))
+        wanted, reply = self._replied(day, stated, told, before, now)
+        if self._stopping.is_set():
+            return
+        plan = parse_plan(to_json(reply))
+        problem = read_body(PlanRequest, to_json(wanted.request))
+        request = PlannedProblem.model_construct(problem=at_addresses(problem, plan), plan=plan)
+        require_drivable(request.problem, plan)
+        work, _ = work_by(request, self._dispatches.links(day.id), day.id,
+                          flights_by_vehicle(request.problem, plan, self._roads,
+                                             instant(day.plan_start)))
+        threshold = float(stated.get("eta_threshold", ETA_THRESHOLD))
+        rows = news_of(day.plan_number + 1, round(day.plan_start + 1000 * now), told, before, plan,
+                       reply, problem, threshold)
+        self._store.publish(self._with_end(day, plan), self._by, reply, work, rows)
+
+    def _replied(self, day: DayRow, stated: dict[str, Any], told: Told, before: PlanInput | None,
+                 now: float) -> tuple[DayAsked, dict[str, Any]]:
+        """Return what is asked for a day's next plan, and the reply."""
+        steps = self._dispatches.steps_by_vehicle(day.id)
+        kept: set[str] = set()
+        while True:
+            wanted = asked(stated, told, before, steps, now, day.planned, kept)
+            try:
+                reply = self._plan(to_json(wanted.request), self._renewing(day))
+                return wanted, dict(from_json(reply))
+            except InvalidRequestError as error:
+                more = too_late(error.errors, wanted.request, told) - kept
+                if not more:
+                    raise
+                kept |= more
+
+    def _renewing(self, day: DayRow) -> Callable[[], bool]:
+        """Return what tells whether a plan is to end, and meanwhile keeps others from the day."""
+        renewed_at = time.monotonic()
+
+        def should_stop() -> bool:
+            nonlocal renewed_at
+            if time.monotonic() - renewed_at > RENEWAL:
+                renewed_at = time.monotonic()
+                self._store.renew(day.id, self._by, LEASE)
+            return self._stopping.is_set()
+
+        return should_stop
+
+    def _with_end(self, day: DayRow, plan: PlanInput) -> DayRow:
+        """Return a day that lasts until its plan is over."""
+        start = PlanStart.stated(instant(day.plan_start, day.zone_offset), day.time_zone,
+                                 datetime.now(UTC))
+        ends_at = max(day.ends_at, milliseconds(start.end(plan)))
+        kept = round(self._settings.dispatch_expiry_hours * HOUR_MS)
+        return replace(day, ends_at=ends_at, expires_at=ends_at + kept)
+
+
+def now_of(told: Told) -> int:
+    """Return what time it is on a day, in milliseconds since 1970."""
+    return now_ms() if told.clock is None else told.clock

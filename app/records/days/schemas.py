@@ -1,0 +1,117 @@
+"""What is sent to and got from the endpoints of days."""
+
+from datetime import datetime
+from typing import Annotated, Any, Literal
+
+from pydantic import BaseModel, ConfigDict, Field
+
+from app.schemas.fields import Duration, Input
+from app.schemas.request import PlanRequest
+from app.schemas.response import PlanReply
+
+PLAN_WITHIN, SHORTEST, LONGEST = 2.0, 0.5, 600.0
+ETA_THRESHOLD = 600.0
+
+OrderState = Literal["waiting", "planned", "served", "failed", "doubtful", "left_out"]
+
+DayName = Annotated[str, Field(min_length=1, max_length=64, pattern="^[A-Za-z0-9._~-]+$")]
+
+
+class DayRequest(Input):
+    """A day that begins."""
+
+    problem: PlanRequest = Field(
+        description="Fleet, depots, and the orders that are known, as `POST /plan` takes them; no "
+        "`replan`. `plan_start` says which day it is; null: today, in UTC or `time_zone`.")
+    id: DayName | None = Field(
+        None, description="A name of your own: the same request sent again finds its day. Null: "
+        "the service makes one.")
+    plan_within: Annotated[float, Field(ge=SHORTEST, le=LONGEST)] = Field(
+        PLAN_WITHIN, description="Seconds from an event to the plan that counts with it.")
+    eta_threshold: Duration = Field(
+        ETA_THRESHOLD, description="By how many seconds an arrival has to move before "
+        "`eta.changed` tells it again.")
+
+
+class _Reply(BaseModel):
+    model_config = ConfigDict(extra="forbid")
+
+
+class OrderReply(_Reply):
+    """How an order stands."""
+
+    id: str = Field(description="As the plan's stop is named.")
+    state: OrderState = Field(
+        description="`waiting` for the next plan, `planned`, `served`, `failed`, `doubtful`: the "
+        "plan has it as served, and nobody told, or `left_out` of the plan.")
+    vehicle: str | None = Field(None, description="Who serves or served it.")
+    arrival: float | None = Field(
+        None, description="When, by the plan and what was told, in seconds since plan start.")
+    told: float | None = Field(None, description="The arrival that `eta.changed` told last.")
+    at_risk: bool = Field(False, description="Whether `order.at_risk` holds.")
+
+
+class VehicleReply(_Reply):
+    """How far a vehicle is."""
+
+    vehicle: str = Field(description="Its id.")
+    told_at: float | None = Field(None, description="When something was told of it last.")
+    done: int = Field(0, description="Steps that were told to be done.")
+    failed: int = Field(0, description="Steps that were told to have failed.")
+    position: tuple[float, float] | None = Field(None, description="Where it was told to be.")
+    broken: bool = Field(False, description="Whether it has broken down.")
+
+
+class DayReply(_Reply):
+    """A day as it stands."""
+
+    id: str = Field(description="Its name.")
+    dispatch: str = Field(description="Id by which `/dispatches` has its drivers' links.")
+    plan_start: datetime = Field(description="The instant from which seconds count.")
+    time_zone: str | None = Field(description="Zone of its wall clock.")
+    ends_at: datetime = Field(description="When it is over.")
+    now: float = Field(description="What time it is, in seconds since plan start.")
+    revision: int = Field(description="Number of its last event.")
+    planned: int = Field(description="Number of the last event that the plan counts with.")
+    is_planned: bool = Field(description="Whether the plan counts with all that was told.")
+    plan_number: int = Field(description="How many plans were made.")
+    failure: str | None = Field(None, description="Why the last plan could not be made.")
+    orders: list[OrderReply] = Field(description="All that were not cancelled.")
+    vehicles: list[VehicleReply] = Field(description="Those of the plan, or told of.")
+    out: list[str] = Field(
+        [], description="Vehicles and drones that do nothing more.")
+
+
+class DayPlanReply(_Reply):
+    """A day's plan."""
+
+    number: int = Field(description="From 1.")
+    planned: int = Field(description="Number of the last event that it counts with.")
+    plan: PlanReply = Field(description="As `POST /plan` replies.")
+
+
+class TakenReply(_Reply):
+    """An event that is kept."""
+
+    event_id: str = Field(description="Its name.")
+    number: int = Field(description="Its place among the day's events.")
+
+
+class DayEventsReply(_Reply):
+    """What became of events."""
+
+    accepted: list[TakenReply] = Field(description="All that were sent; earlier ones too.")
+    revision: int = Field(description="Number of the day's last event.")
+
+
+class LoggedReply(_Reply):
+    """An event of a day, as `GET /days/{id}/events` streams it."""
+
+    number: int = Field(description="Its place among the day's events.")
+    event_id: str | None = Field(None, description="Its name, if a client told it.")
+    kind: str = Field(description="What happened; also `plan.changed`, `eta.changed` and "
+                      "`order.at_risk`.")
+    at: float = Field(description="When, in seconds since plan start.")
+    vehicle: str | None = Field(None, description="Of which vehicle.")
+    reason: str | None = Field(None, description="Why something failed.")
+    about: dict[str, Any] = Field({}, description="What else was told.")

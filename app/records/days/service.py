@@ -1,0 +1,301 @@
+"""Days as their owners see them: begun, told of, read; methods wait for the database."""
+
+import uuid
+from collections.abc import Collection, Iterable
+from datetime import UTC, datetime, timedelta
+from typing import Any
+
+from pydantic_core import from_json, to_json
+
+from app.plans.telling import Telling
+from app.records.clock import now_ms
+from app.records.days.errors import (
+    DayOverError, NoDayPlanError, TooManyDayEventsError, UnknownDayError,
+)
+from app.records.days.events import (
+    AnyEvent, DayEventsRequest, DroneFlown, DroneLost, OrderCancelled, OrderStated,
+)
+from app.records.days.fold import Told, fold, visits
+from app.records.days.news import served_orders
+from app.records.days.rows import DayRow, LoggedEvent
+from app.records.days.runner import now_of
+from app.records.days.schemas import (
+    DayEventsReply, DayReply, DayRequest, LoggedReply, OrderReply, OrderState, TakenReply,
+    VehicleReply,
+)
+from app.records.days.store import BY_CLIENT, DayStore
+from app.records.days.telling import Steps
+from app.records.dispatches.errors import TooManyDispatchesError
+from app.records.dispatches.instants import PlanStart, instant, milliseconds
+from app.requests.bounds import Bounds
+from app.requests.plan_reading import parse_plan
+from app.requests.reading import read_json, read_model, request_errors
+from app.schemas.day import DayOfBody
+from app.schemas.errors import InputError, InvalidRequestError
+from app.schemas.plan import PlanInput
+from app.schemas.request import PlanRequest
+from app.schemas.response import PlanReply
+from app.schemas.times import read_body
+from app.serving.settings import Settings
+
+MAX_EVENTS = 100_000
+"""Most events of a day."""
+
+HOUR_MS = 3_600_000
+
+
+class DayService:
+    """Begins days, has them told, and tells how they stand.
+
+    Parameters
+    ----------
+    store
+        Where they are kept.
+    settings
+        How long, and how many.
+    bounds, policies
+        Those of `POST /plan`.
+    """
+
+    def __init__(self, store: DayStore, settings: Settings, bounds: Bounds,
+                 policies: Collection[str]) -> None:
+        self._store = store
+        self._settings = settings
+        self._bounds = bounds
+        self._policies = policies
+
+    def begin(self, body: bytes, owner: str, client: str) -> DayRow:
+        """Keep a day that begins, or find the one that the same request began. In place.
+
+        Raises
+        ------
+        RequestError
+            If `body` is no valid request, another has its name, or too many are open.
+        """
+        request = read_model(body, DayRequest)
+        errors = request_errors(request.problem, self._policies, self._bounds)
+        if request.problem.replan is not None:
+            errors.append(InputError(code="UNKNOWN_FIELD", path="$.replan", message="A day begins "
+                                     "without a plan: leave it out."))
+        if errors:
+            raise InvalidRequestError([error.model_copy(update={
+                "path": f"$.problem{error.path[1:]}"}) for error in errors])
+        row = self._row(request, owner, client)
+        return self._store.add(row, to_json(from_json(body)), self._refuse_more)
+
+    def find(self, name: str, owner: str) -> DayRow:
+        """Return a day.
+
+        Raises
+        ------
+        UnknownDayError
+            If `owner` has none of that id.
+        """
+        row = self._store.find(owner, name)
+        if row is None:
+            raise UnknownDayError
+        return row
+
+    def tell(self, name: str, owner: str, body: bytes) -> DayEventsReply:
+        """Keep what happened. In place.
+
+        Raises
+        ------
+        RequestError
+            If there is no such day, it is over or full, or `body` is no valid list of events.
+        """
+        row = self.find(name, owner)
+        if row.ends_at <= now_ms():
+            raise DayOverError
+        stated = self._store.request(row.id)
+        day = DayOfBody(to_json(stated["problem"]))
+        events = read_events(body, day)
+        raw = read_json(body)
+        log = self._store.log(row.id)
+        there = {event.id for event in log if event.origin == BY_CLIENT}
+        told = fold(stated["problem"], log, row.plan_start)
+        new = [(number, event) for number, event in enumerate(events)
+               if event.event_id not in there]
+        self._require_known(stated["problem"], told, new, raw)
+        content = self._store.plan(row.id)
+        steps = Steps(None if content is None else parse_plan(to_json(content)),
+                      dict(told.standings))
+        rows = [steps.row(event, round(row.plan_start + 1000 * event.at), raw[number])
+                for number, event in sorted(new, key=lambda each: each[1].at)]
+        self._store.append(row.id, rows, _refuse_events)
+        numbers = self._store.numbers(row.id, [event.event_id for event in events])
+        return DayEventsReply(
+            accepted=[TakenReply(event_id=event.event_id, number=numbers[event.event_id])
+                      for event in events],
+            revision=self.find(name, owner).revision)
+
+    def plan(self, name: str, owner: str) -> dict[str, Any]:
+        """Return a day's plan, and which it is; times as its problem asks for.
+
+        Raises
+        ------
+        UnknownDayError, NoDayPlanError
+            If there is no such day, or it has no plan yet.
+        """
+        row = self.find(name, owner)
+        plan = self._store.plan(row.id)
+        if plan is None:
+            raise NoDayPlanError
+        stated = self._store.request(row.id)["problem"]
+        telling = Telling.of(read_body(PlanRequest, to_json({**stated, "customers": [],
+                                                             "shipments": [], "relations": []})))
+        telling.tell(PlanReply, plan)
+        return {"number": row.plan_number, "planned": row.planned,
+                "plan": {**telling.stated, **plan}}
+
+    def read(self, name: str, owner: str) -> DayReply:
+        """Return how a day stands; raises as `find` does."""
+        row = self.find(name, owner)
+        stated = self._store.request(row.id)
+        told = fold(stated["problem"], self._store.log(row.id), row.plan_start)
+        content = self._store.plan(row.id)
+        plan = PlanInput(routes=()) if content is None else parse_plan(to_json(content))
+        return DayReply(
+            id=row.told_name, dispatch=row.id, time_zone=row.time_zone,
+            plan_start=instant(row.plan_start, row.zone_offset), ends_at=instant(row.ends_at),
+            now=row.seconds(now_of(told)), revision=row.revision, planned=row.planned,
+            is_planned=row.planned >= row.asked, plan_number=row.plan_number, failure=row.failure,
+            orders=list(_orders(told, plan, row.seconds(now_of(told)))),
+            vehicles=_vehicles(told, plan, row), out=told.out)
+
+    def _require_known(self, problem: dict[str, Any], told: Told,
+                       events: Iterable[tuple[int, AnyEvent]], raw: Any) -> None:
+        """Make sure that events name what there is, and state orders that can be planned.
+
+        Raises
+        ------
+        InvalidRequestError
+            With every error, if they don't.
+        """
+        counts = {kind["id"]: kind.get("count", 1) for kind in problem["fleet"]}
+        errors = []
+        customers, shipments = dict(told.customers), dict(told.shipments)
+        orders = {*customers, *shipments, *told.cancelled}
+        origin: dict[str, int] = {}
+        for number, event in events:
+            if isinstance(event, OrderStated):
+                kind = "customer" if event.customer is not None else "shipment"
+                (customers if kind == "customer" else shipments)[event.order] = raw[number][kind]
+                orders.add(event.order)
+                origin[event.order] = number
+            elif isinstance(event, OrderCancelled) and event.order not in orders:
+                errors.append(InputError(
+                    code="UNKNOWN_CUSTOMER", path=f"$[{number}].order",
+                    message=f"The day has no order {event.order!r}: use the id of one."))
+            field = "drone" if isinstance(event, DroneFlown | DroneLost) else "vehicle"
+            vehicle = getattr(event, field, None)
+            if vehicle is not None and not _is_of(vehicle, counts):
+                errors.append(InputError(
+                    code="UNKNOWN_VEHICLE", path=f"$[{number}].{field}",
+                    message=f"The fleet has no {field} {vehicle!r}: use its name in the plan."))
+        if origin and not errors:
+            errors = self._order_errors(problem, customers, shipments, origin)
+        if errors:
+            raise InvalidRequestError(errors)
+
+    def _order_errors(self, problem: dict[str, Any], customers: dict[str, Any],
+                      shipments: dict[str, Any], origin: dict[str, int]) -> list[InputError]:
+        """Return what is wrong with orders, where the events of these numbers state them."""
+        whole = {**problem, "customers": list(customers.values()),
+                 "shipments": list(shipments.values())}
+        errors = request_errors(read_body(PlanRequest, to_json(whole)), self._policies,
+                                self._bounds)
+        paths = {f"$.customers[{index}]": f"$[{origin[order]}].customer"
+                 for index, order in enumerate(customers) if order in origin}
+        paths |= {f"$.shipments[{index}]": f"$[{origin[order]}].shipment"
+                  for index, order in enumerate(shipments) if order in origin}
+        told = []
+        for error in errors:
+            start = error.path[:error.path.find("]") + 1]
+            path = f"{paths[start]}{error.path[len(start):]}" if start in paths else "$"
+            told.append(error.model_copy(update={"path": path}))
+        return told
+
+    def _row(self, request: DayRequest, owner: str, client: str) -> DayRow:
+        now = datetime.now(UTC)
+        stated = request.problem.day
+        day = PlanStart.stated(None if stated is None else stated.start, request.problem.time_zone,
+                               now)
+        ends_at = milliseconds(max(day.end(PlanInput(routes=())),
+                                   now + timedelta(hours=self._settings.dispatch_hours)))
+        offset = day.plan_start.utcoffset() or timedelta()
+        return DayRow(
+            id=str(uuid.uuid4()), owner=owner, client=client, created_at=milliseconds(now),
+            plan_start=milliseconds(day.plan_start), ends_at=ends_at,
+            expires_at=ends_at + round(self._settings.dispatch_expiry_hours * HOUR_MS),
+            zone_offset=round(offset.total_seconds() / 60), time_zone=day.time_zone,
+            name=request.id)
+
+    def _refuse_more(self, there: int) -> None:
+        most = self._settings.max_dispatches_per_client
+        if there >= most:
+            raise TooManyDispatchesError(most)
+
+
+def read_events(body: bytes, day: DayOfBody) -> list[AnyEvent]:
+    """Return the events that a body holds, told as times of a day are.
+
+    Raises
+    ------
+    NotJsonError, InvalidRequestError
+        If it holds none, or what are none.
+    """
+    return read_model(body, DayEventsRequest, day).root
+
+
+def _refuse_events(count: int) -> None:
+    if count > MAX_EVENTS:
+        raise TooManyDayEventsError(MAX_EVENTS)
+
+
+def logged(row: DayRow, event: LoggedEvent) -> LoggedReply:
+    """Return an event as clients read it."""
+    return LoggedReply(number=event.number, kind=event.kind, at=row.seconds(event.time),
+                       event_id=event.id if event.origin == BY_CLIENT else None,
+                       vehicle=event.vehicle, reason=event.reason, about=event.about)
+
+
+def _is_of(name: str, counts: dict[str, int]) -> bool:
+    """Tell whether a vehicle, or a drone of it, is of the fleet."""
+    kind, _, number = name.partition("/")[0].rpartition("-")
+    return number.isdecimal() and 1 <= int(number) <= counts.get(kind, 0)
+
+
+def _orders(told: Told, plan: PlanInput, now: float) -> Iterable[OrderReply]:
+    """Yield how orders stand: those of the plan, those it leaves out, and those it lacks yet."""
+    served = served_orders(plan, told)
+    seen: set[str] = set()
+    for order, vehicle, visit in visits(plan):
+        seen.add(order)
+        state: OrderState = "planned"
+        if order in served:
+            state = "served" if served[order] else "failed"
+        elif visit.departure <= now:
+            state = "doubtful"
+        yield OrderReply(id=order, state=state, vehicle=vehicle, arrival=visit.arrival,
+                         told=told.etas.get(order), at_risk=order in told.at_risk)
+    for left in plan.unassigned:
+        seen.add(left.id)
+        yield OrderReply(id=left.id, state="left_out", at_risk=left.id in told.at_risk)
+    whole = {name.partition("/")[0] for name in seen}
+    for order in (*told.customers, *told.shipments):
+        if order not in seen and order not in whole:
+            yield OrderReply(id=order, vehicle=told.elsewhere.get(order),
+                             state="served" if order in told.elsewhere else "waiting")
+
+
+def _vehicles(told: Told, plan: PlanInput, row: DayRow) -> list[VehicleReply]:
+    names = dict.fromkeys([*(route.vehicle for route in plan.routes), *told.told_at])
+    listed = []
+    for name in names:
+        done, failed = told.count(name)
+        at = told.told_at.get(name)
+        listed.append(VehicleReply(
+            vehicle=name, told_at=None if at is None else row.seconds(at), done=done,
+            failed=failed, position=told.positions.get(name), broken=name in told.out))
+    return listed

@@ -1,0 +1,185 @@
+"""Days in the database."""
+
+import zlib
+from collections.abc import Callable, Collection, Mapping, Sequence
+from dataclasses import asdict, fields, replace
+from typing import Any
+
+from pydantic_core import from_json, to_json
+from sqlalchemy import ColumnElement, Connection, Engine, func, insert, select, update
+
+from app.database.tables import DAYS, EVENTS
+from app.records.clock import now_ms
+from app.records.days.errors import DayTakenError
+from app.records.days.rows import DayRow, LoggedEvent
+from app.records.dispatches.rows import ToldRow
+from app.records.dispatches.store import FAST, Work, add_events, put_work
+
+BY_SERVICE, BY_CLIENT = "service", ""
+"""Origins of events that no driver told."""
+
+_DAY = [DAYS.c[each.name] for each in fields(DayRow)]
+_EVENT = [EVENTS.c[each.name] for each in fields(LoggedEvent)]
+
+
+class DayStore:
+    """The days of all processes that share a database."""
+
+    def __init__(self, engine: Engine) -> None:
+        self._engine = engine
+
+    def add(self, day: DayRow, request: bytes, refuse: Callable[[int], None]) -> DayRow:
+        """Keep a day unless `refuse` raises, told how many its client has open; return it.
+
+        One by its name, begun by the same request, is returned in its place.
+
+        Raises
+        ------
+        DayTakenError
+            If its owner began another by its name.
+        """
+        open_ones = (select(func.count()).select_from(DAYS)
+                     .where(DAYS.c.client == day.client, DAYS.c.ends_at > now_ms()))
+        with self._engine.begin() as connection:
+            if day.name is not None:
+                there = _found(connection, day.owner, day.name)
+                if there is not None:
+                    if _request(connection, there.id) != request:
+                        raise DayTakenError
+                    return there
+            refuse(connection.scalar(open_ones) or 0)
+            begun = replace(day, revision=1, asked=1)
+            connection.execute(insert(DAYS).values(
+                **asdict(begun), plan=b"", request=zlib.compress(request, FAST)))
+            add_events(connection, day.id, 0, BY_SERVICE,
+                       [ToldRow("begun", "day.begun", now_ms())])
+            return begun
+
+    def find(self, owner: str, name: str) -> DayRow | None:
+        """Return an owner's day by its id, or the name that its client gave it."""
+        with self._engine.connect() as connection:
+            return _found(connection, owner, name)
+
+    def request(self, day: str) -> dict[str, Any]:
+        """Return what a day began with."""
+        with self._engine.connect() as connection:
+            return dict(from_json(_request(connection, day)))
+
+    def plan(self, day: str) -> dict[str, Any] | None:
+        """Return a day's plan, times in seconds; None: there is none yet."""
+        with self._engine.connect() as connection:
+            content = connection.scalar(select(DAYS.c.plan).where(DAYS.c.id == day))
+        return dict(from_json(zlib.decompress(content))) if content else None
+
+    def log(self, day: str, after: int = 0) -> list[LoggedEvent]:
+        """Return a day's events behind the one of a number."""
+        statement = (select(*_EVENT).where(EVENTS.c.day == day, EVENTS.c.number > after)
+                     .order_by(EVENTS.c.number))
+        with self._engine.connect() as connection:
+            return [LoggedEvent(*row) for row in connection.execute(statement)]
+
+    def append(self, day: str, events: Sequence[ToldRow],
+               refuse: Callable[[int], None]) -> None:
+        """Keep events that aren't there yet, unless `refuse` raises. In place.
+
+        `refuse` is told how many the day would have.
+        """
+        names = [event.id for event in events]
+        with self._engine.begin() as connection:
+            # Of two who tell at once, one waits.
+            revision = connection.scalar(
+                select(DAYS.c.revision).where(DAYS.c.id == day).with_for_update()) or 0
+            there = _numbers(connection, day, names)
+            new = {event.id: event for event in events if event.id not in there}
+            refuse(revision + len(new))
+            if new:
+                add_events(connection, day, revision, BY_CLIENT, list(new.values()))
+
+    def numbers(self, day: str, names: Collection[str]) -> dict[str, int]:
+        """Return the numbers of events that clients told, by name."""
+        with self._engine.connect() as connection:
+            return _numbers(connection, day, names)
+
+    def claim(self, by: str, seconds: float) -> DayRow | None:
+        """Return a day whose plan doesn't count with all that was told, to be planned by one.
+
+        It is that one's for some seconds. In place.
+        """
+        now = now_ms()
+        free = DAYS.c.lease_until.is_(None) | (DAYS.c.lease_until <= now)
+        waits = (DAYS.c.request.is_not(None), DAYS.c.asked > DAYS.c.planned, free)
+        with self._engine.connect() as connection:
+            # Whoever looks in vain has written nothing.
+            days = list(connection.scalars(select(DAYS.c.id).where(*waits).limit(20)))
+        for day in days:
+            with self._engine.begin() as connection:
+                taken = connection.execute(update(DAYS).where(DAYS.c.id == day, *waits).values(
+                    lease_until=now + round(seconds * 1000), lease_by=by))
+                if taken.rowcount:
+                    return _one(connection, DAYS.c.id == day)
+        return None
+
+    def renew(self, day: str, by: str, seconds: float) -> None:
+        """Keep a day that was claimed for some more seconds. In place."""
+        with self._engine.begin() as connection:
+            connection.execute(update(DAYS).where(DAYS.c.id == day, DAYS.c.lease_by == by).values(
+                lease_until=now_ms() + round(seconds * 1000)))
+
+    def publish(self, day: DayRow, by: str, reply: Mapping[str, Any], work: Work,
+                told: Sequence[ToldRow]) -> bool:
+        """Put a plan in place of the one before, with what follows from it. In place.
+
+        Returns
+        -------
+        Whether it counts: not if another has taken the day meanwhile.
+        """
+        content = zlib.compress(to_json(reply), FAST)
+        with self._engine.begin() as connection:
+            revision = _held(connection, day.id, by)
+            if revision is None:
+                return False
+            connection.execute(insert(EVENTS), [
+                {**asdict(event), "day": day.id, "origin": BY_SERVICE, "number": number,
+                 "received_at": now_ms()} for number, event in enumerate(told, revision + 1)])
+            put_work(connection, day.id, work)
+            connection.execute(update(DAYS).where(DAYS.c.id == day.id).values(
+                plan=content, planned=day.asked, plan_number=DAYS.c.plan_number + 1,
+                revision=revision + len(told), failure=None, lease_until=None, lease_by=None,
+                ends_at=day.ends_at, expires_at=day.expires_at))
+        return True
+
+    def fail(self, day: DayRow, by: str, why: str) -> None:
+        """Note why a day can't be planned as it stands. In place."""
+        with self._engine.begin() as connection:
+            if _held(connection, day.id, by) is not None:
+                connection.execute(update(DAYS).where(DAYS.c.id == day.id).values(
+                    planned=day.asked, failure=why, lease_until=None, lease_by=None))
+
+
+def _found(connection: Connection, owner: str, name: str) -> DayRow | None:
+    return _one(connection, (DAYS.c.owner == owner) & DAYS.c.request.is_not(None)
+                & ((DAYS.c.id == name) | (DAYS.c.name == name)))
+
+
+def _one(connection: Connection, which: ColumnElement[bool]) -> DayRow | None:
+    row = connection.execute(select(*_DAY).where(which)).first()
+    return None if row is None else DayRow(*row)
+
+
+def _request(connection: Connection, day: str) -> bytes:
+    content = connection.scalar(select(DAYS.c.request).where(DAYS.c.id == day))
+    return zlib.decompress(content or b"")
+
+
+def _held(connection: Connection, day: str, by: str) -> int | None:
+    """Return the number of the last event of a day that a process holds; None: it doesn't.
+
+    No other adds to it meanwhile.
+    """
+    return connection.scalar(select(DAYS.c.revision).where(
+        DAYS.c.id == day, DAYS.c.lease_by == by).with_for_update())
+
+
+def _numbers(connection: Connection, day: str, names: Collection[str]) -> dict[str, int]:
+    return dict(connection.execute(select(EVENTS.c.id, EVENTS.c.number).where(
+        EVENTS.c.day == day, EVENTS.c.origin == BY_CLIENT, EVENTS.c.id.in_(names))).all())
