@@ -3,6 +3,7 @@
 from typing import Annotated, Literal, Self
 
 from pydantic import Discriminator, Field, RootModel, model_validator
+from pydantic_core import PydanticCustomError
 
 from app.schemas.customer import CustomerInput
 from app.schemas.fields import Duration, Input, Instant, Location, Name
@@ -35,7 +36,8 @@ class OrderStated(DayEvent):
     def _is_one(self) -> Self:
         """Refuse what is no order, or two."""
         if (self.customer is None) == (self.shipment is None):
-            raise ValueError("an order is a customer or a shipment: state one of them")
+            raise PydanticCustomError(
+                "MISSING_FIELD", "An order is a customer or a shipment: state one of them.")
         return self
 
     @property
@@ -125,7 +127,7 @@ class DroneLost(DayEvent):
 
 
 class Clock(DayEvent):
-    """What time it is. A day that was told once goes by the times it is told, not by the clock."""
+    """What time it is, where a day goes by the times it is told."""
 
     kind: Literal["clock"]
 

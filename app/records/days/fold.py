@@ -4,7 +4,7 @@ from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
-from app.records.days.rows import LoggedEvent
+from app.records.days.rows import Begun, LoggedEvent
 from app.records.dispatches.going_on import GROUNDING
 from app.records.dispatches.rows import EventRow
 from app.records.dispatches.standing import Standing, is_broken, of_steps, standing_of
@@ -51,18 +51,19 @@ class Told:
         return outcomes.count("done"), outcomes.count("failed")
 
 
-def fold(problem: Mapping[str, Any], events: Iterable[LoggedEvent], plan_start: int) -> Told:
-    """Return how a day stands that began with a problem.
+def fold(begun: Begun, events: Iterable[LoggedEvent], plan_start: int) -> Told:
+    """Return how a day stands; `plan_start` is in milliseconds since 1970.
 
     What was told late is put where it belongs: events count in the order of their times.
     """
-    told = Told({each["id"]: each for each in problem.get("customers", ())},
-                {each["id"]: each for each in problem.get("shipments", ())})
+    told = Told({each["id"]: each for each in begun.problem.get("customers", ())},
+                {each["id"]: each for each in begun.problem.get("shipments", ())})
     listed = list(events)
     for event in sorted(listed, key=lambda event: (event.time, event.number)):
         _take(told, event)
-    if any(event.kind == "clock" for event in listed):
-        told.clock = max(event.time for event in listed if event.kind in CLIENTS)
+    if begun.terms.clock is not None:
+        told.clock = max([round(plan_start + 1000 * begun.terms.clock),
+                          *(event.time for event in listed if event.kind in CLIENTS)])
     steps: dict[str, list[EventRow]] = {}
     for event in listed:
         if event.vehicle is not None and event.step is not None and event.outcome is not None:

@@ -6,6 +6,7 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from app.records.days.fold import Data, Told
+from app.records.days.rows import Begun
 from app.records.dispatches.going_on import OnTheRoad, going_on
 from app.records.dispatches.schemas import GoingOnReply, StepReply
 from app.records.dispatches.steps import stop_ids
@@ -30,14 +31,14 @@ class DayAsked:
     kept: Sequence[str] = field(default_factory=tuple)  # cancelled, or served by others: too late
 
 
-def asked(stated: Data, told: Told, plan: PlanInput | None,
+def asked(begun: Begun, told: Told, plan: PlanInput | None,
           steps: Mapping[str, Sequence[StepReply]], now: float, seen: int,
           kept: Collection[str] = ()) -> DayAsked:
     """Return the request of `POST /plan` that goes on from a day's plan.
 
     Parameters
     ----------
-    stated
+    begun
         With what the day began.
     told
         What was told since.
@@ -52,11 +53,11 @@ def asked(stated: Data, told: Told, plan: PlanInput | None,
     kept
         Orders that stay although they were cancelled, as a vehicle is on its way to them.
     """
-    within = float(stated.get("plan_within", 2.0))
-    options = {**stated["problem"].get("options", {}), "times": "seconds"}
+    within = begun.terms.plan_within
+    options = {**begun.problem.get("options", {}), "times": "seconds"}
     options["time_limit"] = min(options.get("time_limit", within),
                                 max(LEAST_SEARCHING, SEARCHING * within))
-    request = {**stated["problem"], "options": options}
+    request = {**begun.problem, "options": options}
     failed: dict[str, float] = {}
     if plan is None:
         replan: Data = {"plan": {"routes": []}, "freeze_before": now}

@@ -40,6 +40,23 @@ class DayRow:
 
 
 @dataclass(frozen=True)
+class DayTerms:
+    """How a day is planned, beside its problem."""
+
+    plan_within: float  # seconds
+    eta_threshold: float  # seconds
+    clock: float | None  # when it begins, if it goes by what it is told: seconds since plan start
+
+
+@dataclass(frozen=True)
+class Begun:
+    """With what a day began; the problem as its client wrote it."""
+
+    problem: dict[str, Any]
+    terms: DayTerms
+
+
+@dataclass(frozen=True)
 class LoggedEvent:
     """An event of a day."""
 

@@ -21,8 +21,7 @@ from app.records.clock import now_ms
 from app.records.days.fold import Told, fold
 from app.records.days.news import news_of
 from app.records.days.planning import DayAsked, asked, too_late
-from app.records.days.rows import DayRow
-from app.records.days.schemas import ETA_THRESHOLD
+from app.records.days.rows import Begun, DayRow
 from app.records.days.store import DayStore
 from app.records.dispatches.instants import PlanStart, instant, milliseconds
 from app.records.dispatches.service import work_by
@@ -140,13 +139,13 @@ class DayRunner:
             self._told.set()
 
     def _make(self, day: DayRow) -> None:
-        stated = self._store.request(day.id)
+        begun = self._store.begun(day.id)
         log = [event for event in self._store.log(day.id) if event.number <= day.revision]
-        told = fold(stated["problem"], log, day.plan_start)
+        told = fold(begun, log, day.plan_start)
         content = self._store.plan(day.id)
         before = None if content is None else parse_plan(to_json(content))
         now = max(0.0, day.seconds(now_of(told)))
-        wanted, reply = self._replied(day, stated, told, before, now)
+        wanted, reply = self._replied(day, begun, told, before, now)
         if self._stopping.is_set():
             return
         plan = parse_plan(to_json(reply))
@@ -156,18 +155,17 @@ class DayRunner:
         work, _ = work_by(request, self._dispatches.links(day.id), day.id,
                           flights_by_vehicle(request.problem, plan, self._roads,
                                              instant(day.plan_start)))
-        threshold = float(stated.get("eta_threshold", ETA_THRESHOLD))
         rows = news_of(day.plan_number + 1, round(day.plan_start + 1000 * now), told, before, plan,
-                       reply, problem, threshold)
+                       reply, problem, begun.terms.eta_threshold)
         self._store.publish(self._with_end(day, plan), self._by, reply, work, rows)
 
-    def _replied(self, day: DayRow, stated: dict[str, Any], told: Told, before: PlanInput | None,
+    def _replied(self, day: DayRow, begun: Begun, told: Told, before: PlanInput | None,
                  now: float) -> tuple[DayAsked, dict[str, Any]]:
         """Return what is asked for a day's next plan, and the reply."""
         steps = self._dispatches.steps_by_vehicle(day.id)
         kept: set[str] = set()
         while True:
-            wanted = asked(stated, told, before, steps, now, day.planned, kept)
+            wanted = asked(begun, told, before, steps, now, day.planned, kept)
             try:
                 reply = self._plan(to_json(wanted.request), self._renewing(day))
                 return wanted, dict(from_json(reply))

@@ -5,7 +5,7 @@ from typing import Annotated, Any, Literal
 
 from pydantic import BaseModel, ConfigDict, Field
 
-from app.schemas.fields import Duration, Input
+from app.schemas.fields import Duration, Input, Instant
 from app.schemas.request import PlanRequest
 from app.schemas.response import PlanReply
 
@@ -28,6 +28,9 @@ class DayRequest(Input):
         "the service makes one.")
     plan_within: Annotated[float, Field(ge=SHORTEST, le=LONGEST)] = Field(
         PLAN_WITHIN, description="Seconds from an event to the plan that counts with it.")
+    clock: Instant | None = Field(
+        None, description="What time it is when the day begins, for days that go by the times they "
+        "are told: simulated ones, or yesterday's. Null: the service's clock.")
     eta_threshold: Duration = Field(
         ETA_THRESHOLD, description="By how many seconds an arrival has to move before "
         "`eta.changed` tells it again.")

@@ -1,5 +1,6 @@
 """Days as their owners see them: begun, told of, read; methods wait for the database."""
 
+import re
 import uuid
 from collections.abc import Collection, Iterable
 from datetime import UTC, datetime, timedelta
@@ -17,7 +18,7 @@ from app.records.days.events import (
 )
 from app.records.days.fold import Told, fold, visits
 from app.records.days.news import served_orders
-from app.records.days.rows import DayRow, LoggedEvent
+from app.records.days.rows import Begun, DayRow, DayTerms, LoggedEvent
 from app.records.days.runner import now_of
 from app.records.days.schemas import (
     DayEventsReply, DayReply, DayRequest, LoggedReply, OrderReply, OrderState, TakenReply,
@@ -42,6 +43,9 @@ MAX_EVENTS = 100_000
 """Most events of a day."""
 
 HOUR_MS = 3_600_000
+
+_KIND = re.compile(r"(\$\[\d+\])(?:\['[a-z]+\.[a-z_]+'\]|\.clock(?=$|\.))")
+"""What errors have of an event's kind in their paths, which isn't in the body."""
 
 
 class DayService:
@@ -81,7 +85,8 @@ class DayService:
             raise InvalidRequestError([error.model_copy(update={
                 "path": f"$.problem{error.path[1:]}"}) for error in errors])
         row = self._row(request, owner, client)
-        return self._store.add(row, to_json(from_json(body)), self._refuse_more)
+        terms = DayTerms(request.plan_within, request.eta_threshold, request.clock)
+        return self._store.add(row, Begun(from_json(body)["problem"], terms), self._refuse_more)
 
     def find(self, name: str, owner: str) -> DayRow:
         """Return a day.
@@ -107,16 +112,16 @@ class DayService:
         row = self.find(name, owner)
         if row.ends_at <= now_ms():
             raise DayOverError
-        stated = self._store.request(row.id)
-        day = DayOfBody(to_json(stated["problem"]))
+        begun = self._store.begun(row.id)
+        day = DayOfBody(to_json(begun.problem))
         events = read_events(body, day)
         raw = read_json(body)
         log = self._store.log(row.id)
         there = {event.id for event in log if event.origin == BY_CLIENT}
-        told = fold(stated["problem"], log, row.plan_start)
+        told = fold(begun, log, row.plan_start)
         new = [(number, event) for number, event in enumerate(events)
                if event.event_id not in there]
-        self._require_known(stated["problem"], told, new, raw)
+        self._require_known(begun.problem, told, new, raw)
         content = self._store.plan(row.id)
         steps = Steps(None if content is None else parse_plan(to_json(content)),
                       dict(told.standings))
@@ -141,7 +146,7 @@ class DayService:
         plan = self._store.plan(row.id)
         if plan is None:
             raise NoDayPlanError
-        stated = self._store.request(row.id)["problem"]
+        stated = self._store.begun(row.id).problem
         telling = Telling.of(read_body(PlanRequest, to_json({**stated, "customers": [],
                                                              "shipments": [], "relations": []})))
         telling.tell(PlanReply, plan)
@@ -151,8 +156,7 @@ class DayService:
     def read(self, name: str, owner: str) -> DayReply:
         """Return how a day stands; raises as `find` does."""
         row = self.find(name, owner)
-        stated = self._store.request(row.id)
-        told = fold(stated["problem"], self._store.log(row.id), row.plan_start)
+        told = fold(self._store.begun(row.id), self._store.log(row.id), row.plan_start)
         content = self._store.plan(row.id)
         plan = PlanInput(routes=()) if content is None else parse_plan(to_json(content))
         return DayReply(
@@ -245,7 +249,11 @@ def read_events(body: bytes, day: DayOfBody) -> list[AnyEvent]:
     NotJsonError, InvalidRequestError
         If it holds none, or what are none.
     """
-    return read_model(body, DayEventsRequest, day).root
+    try:
+        return read_model(body, DayEventsRequest, day).root
+    except InvalidRequestError as error:
+        raise InvalidRequestError([each.model_copy(update={"path": _KIND.sub(r"\1", each.path)})
+                                   for each in error.errors]) from error
 
 
 def _refuse_events(count: int) -> None:
@@ -273,7 +281,9 @@ def _orders(told: Told, plan: PlanInput, now: float) -> Iterable[OrderReply]:
     for order, vehicle, visit in visits(plan):
         seen.add(order)
         state: OrderState = "planned"
-        if order in served:
+        if order in told.elsewhere:
+            state, vehicle = "served", told.elsewhere[order]
+        elif order in served:
             state = "served" if served[order] else "failed"
         elif visit.departure <= now:
             state = "doubtful"

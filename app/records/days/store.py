@@ -11,7 +11,7 @@ from sqlalchemy import ColumnElement, Connection, Engine, func, insert, select, 
 from app.database.tables import DAYS, EVENTS
 from app.records.clock import now_ms
 from app.records.days.errors import DayTakenError
-from app.records.days.rows import DayRow, LoggedEvent
+from app.records.days.rows import Begun, DayRow, DayTerms, LoggedEvent
 from app.records.dispatches.rows import ToldRow
 from app.records.dispatches.store import FAST, Work, add_events, put_work
 
@@ -28,7 +28,7 @@ class DayStore:
     def __init__(self, engine: Engine) -> None:
         self._engine = engine
 
-    def add(self, day: DayRow, request: bytes, refuse: Callable[[int], None]) -> DayRow:
+    def add(self, day: DayRow, begun: Begun, refuse: Callable[[int], None]) -> DayRow:
         """Keep a day unless `refuse` raises, told how many its client has open; return it.
 
         One by its name, begun by the same request, is returned in its place.
@@ -40,6 +40,7 @@ class DayStore:
         """
         open_ones = (select(func.count()).select_from(DAYS)
                      .where(DAYS.c.client == day.client, DAYS.c.ends_at > now_ms()))
+        request = to_json({"problem": begun.problem, "terms": asdict(begun.terms)})
         with self._engine.begin() as connection:
             if day.name is not None:
                 there = _found(connection, day.owner, day.name)
@@ -48,22 +49,23 @@ class DayStore:
                         raise DayTakenError
                     return there
             refuse(connection.scalar(open_ones) or 0)
-            begun = replace(day, revision=1, asked=1)
+            first = replace(day, revision=1, asked=1)
             connection.execute(insert(DAYS).values(
-                **asdict(begun), plan=b"", request=zlib.compress(request, FAST)))
+                **asdict(first), plan=b"", request=zlib.compress(request, FAST)))
             add_events(connection, day.id, 0, BY_SERVICE,
                        [ToldRow("begun", "day.begun", now_ms())])
-            return begun
+            return first
 
     def find(self, owner: str, name: str) -> DayRow | None:
         """Return an owner's day by its id, or the name that its client gave it."""
         with self._engine.connect() as connection:
             return _found(connection, owner, name)
 
-    def request(self, day: str) -> dict[str, Any]:
-        """Return what a day began with."""
+    def begun(self, day: str) -> Begun:
+        """Return with what a day began."""
         with self._engine.connect() as connection:
-            return dict(from_json(_request(connection, day)))
+            content = from_json(_request(connection, day))
+        return Begun(content["problem"], DayTerms(**content["terms"]))
 
     def plan(self, day: str) -> dict[str, Any] | None:
         """Return a day's plan, times in seconds; None: there is none yet."""

@@ -11,7 +11,7 @@ Data = dict[str, Any]
 
 PROBLEM: Data = {
     "planar_unit": 1000,
-    "depots": [{"id": "hub", "location": [0, 0]}],
+    "depots": [{"id": "hub", "location": [0, 0], "time_window": {"earliest": 100}}],
     "customers": [{"id": name, "location": place, "demand": [1], "service_duration": 60}
                   for name, place in {"A": [2, 0], "B": [4, 0], "C": [0, 3], "D": [0, 6],
                                       "E": [-3, 0], "F": [-5, 0]}.items()],
@@ -19,12 +19,10 @@ PROBLEM: Data = {
                "max_trips": 2, "costs": {"fixed": 10}}],
 }
 
-ROUTES = "routes"
-
 
 def begun(client: httpx.Client, problem: Data = PROBLEM, **more: Any) -> str:
     """Begin a day whose first plan is there, and return its id."""
-    reply = client.post("/days", json={"problem": problem, **more})
+    reply = client.post("/days", json={"problem": problem, "clock": 0, **more})
     assert reply.status_code == 201, reply.text
     day = DayReply.model_validate_json(reply.text)
     planned(client, day.id)
