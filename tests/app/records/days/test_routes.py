@@ -23,7 +23,7 @@ pytestmark = pytest.mark.slow
 @pytest.fixture(scope="module")
 def service(tmp_path_factory: pytest.TempPathFactory) -> Iterator[httpx.Client]:
     """Return a client of a service with a database of this module's own."""
-    settings = Settings(data_dir=tmp_path_factory.mktemp("days"), drain_seconds=0)
+    settings = Settings(data_dir=tmp_path_factory.mktemp("days"), drain_seconds=0, role="api")
     with serving(SearchingPlanner(), settings) as client:
         yield ready(client)
 

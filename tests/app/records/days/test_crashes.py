@@ -1,0 +1,81 @@
+"""Days whose service is killed, on both databases."""
+
+import random
+import threading
+from pathlib import Path
+
+import httpx
+import pytest
+import uvicorn
+
+from app.cli.serving import IDLE_SECONDS
+from app.main import create_app
+from app.serving.settings import Settings
+from tests.app.records.days.living import begun, clock, order, plan_of, planned, served_by, standing
+from tests.app.conftest import SearchingPlanner
+from tests.app.records.jobs.served import Served
+from tests.conftest import eventually
+
+pytestmark = pytest.mark.slow
+
+
+def searching(port: int) -> None:
+    """Serve a planner that searches, in threads: it starts soon."""
+    uvicorn.run(create_app(Settings(), SearchingPlanner()), port=port,
+                timeout_keep_alive=IDLE_SECONDS)
+
+
+def test_killed_service_loses_no_event_and_counts_none_twice(
+        settings: Settings, tmp_path: Path) -> None:
+    url = settings.database_url
+    served = Served(tmp_path / "log", searching, data_dir=settings.data_dir, drain_seconds=0,
+                    **({} if url is None else {"database_url": url.get_secret_value()}))
+    served.start()
+    day = begun(served.client)
+    names = [f"G{number}" for number in range(12)]
+    draw = random.Random(1)
+    stopping = threading.Event()
+
+    def kill_often() -> None:
+        for _ in range(2):
+            if stopping.wait(draw.uniform(0.3, 1.5)):
+                return
+            served.kill()
+            served.start()
+
+    killer = threading.Thread(target=kill_often)
+    killer.start()
+    try:
+        for number, name in enumerate(names):
+            _tell_until_heard(served.client, day, name, number + 1.0)
+    finally:
+        killer.join()
+        stopping.set()
+    found = planned(served.client, day)
+    numbers = served.client.post(f"/days/{day}/events", json=[
+        {"event_id": name, "at": 1, **clock()} for name in names]).json()["accepted"]
+    assert len({each["number"] for each in numbers}) == len(names)
+    assert {each.id for each in found.orders} == {*"ABCDEF", *names}
+    before = plan_of(served.client, day)
+    assert set(served_by(before)) | {each["id"] for each in before["unassigned"]} == {
+        *"ABCDEF", *names}
+    served.kill()
+    served.start()
+    assert plan_of(served.client, day) == before
+    assert standing(served.client, day).revision == found.revision
+    served.terminate()
+
+
+def _tell_until_heard(client: httpx.Client, day: str, name: str, at: float) -> None:
+    """Tell of an order as often as the service is away meanwhile, and once more."""
+    event = {"event_id": name, "at": at, **order(name, 1, 1)}
+
+    def is_heard() -> bool:
+        try:
+            return client.post(f"/days/{day}/events", json=[event]).status_code == 202
+        except httpx.HTTPError:
+            return False
+
+    eventually(is_heard)
+    eventually(is_heard)
+
