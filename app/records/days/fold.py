@@ -23,7 +23,7 @@ KINDS = (*sorted(CLIENTS), "day.begun", "plan.changed", "eta.changed", "order.at
 
 
 @dataclass
-class Told:
+class ToldDay:
     """What was told of a day so far."""
 
     customers: dict[str, Data]
@@ -51,12 +51,12 @@ class Told:
         return outcomes.count("done"), outcomes.count("failed")
 
 
-def fold(begun: Begun, events: Iterable[LoggedEvent], plan_start: int) -> Told:
+def fold(begun: Begun, events: Iterable[LoggedEvent], plan_start: int) -> ToldDay:
     """Return how a day stands; `plan_start` is in milliseconds since 1970.
 
     What was told late is put where it belongs: events count in the order of their times.
     """
-    told = Told({each["id"]: each for each in begun.problem.get("customers", ())},
+    told = ToldDay({each["id"]: each for each in begun.problem.get("customers", ())},
                 {each["id"]: each for each in begun.problem.get("shipments", ())})
     listed = list(events)
     for event in sorted(listed, key=lambda event: (event.time, event.number)):
@@ -73,7 +73,7 @@ def fold(begun: Begun, events: Iterable[LoggedEvent], plan_start: int) -> Told:
     return told
 
 
-def _take(told: Told, event: LoggedEvent) -> None:
+def _take(told: ToldDay, event: LoggedEvent) -> None:
     """Have an event count. In place."""
     about = event.about
     if event.kind in ("order.placed", "order.changed"):
@@ -96,7 +96,7 @@ def _take(told: Told, event: LoggedEvent) -> None:
         told.told_at[event.vehicle] = event.time
 
 
-def _state(told: Told, about: Mapping[str, Any]) -> None:
+def _state(told: ToldDay, about: Mapping[str, Any]) -> None:
     kind, orders = (("customer", told.customers) if "customer" in about
                     else ("shipment", told.shipments))
     order = about[kind]
@@ -104,7 +104,7 @@ def _state(told: Told, about: Mapping[str, Any]) -> None:
     told.cancelled.pop(order["id"], None)
 
 
-def _cancel(told: Told, order: str) -> None:
+def _cancel(told: ToldDay, order: str) -> None:
     for orders in (told.customers, told.shipments):
         if order in orders:
             told.cancelled[order] = orders.pop(order)

@@ -5,7 +5,7 @@ from typing import Any
 
 from pydantic_core import to_json
 
-from app.records.days.fold import Data, Told, visits
+from app.records.days.fold import Data, ToldDay, visits
 from app.records.dispatches.rows import ToldRow
 from app.records.dispatches.standing import of_steps
 from app.records.dispatches.steps import flight_id, stop_ids
@@ -13,7 +13,7 @@ from app.schemas.plan import PlanInput, TripInput
 from app.schemas.request import PlanRequest
 
 
-def news_of(number: int, at: int, told: Told, before: PlanInput | None, plan: PlanInput,
+def news_of(number: int, at: int, told: ToldDay, before: PlanInput | None, plan: PlanInput,
             reply: Mapping[str, Any], problem: PlanRequest, threshold: float) -> list[ToldRow]:
     """Return the events of a plan that was just made, `at` being now in ms since 1970."""
     was = {order: vehicle for order, vehicle, _ in visits(before or PlanInput(routes=()))}
@@ -42,7 +42,7 @@ def _row(number: int, at: int, kind: str, order: str, about: Data,
                    body=to_json(about).decode())
 
 
-def served_orders(plan: PlanInput, told: Told) -> dict[str, bool]:
+def served_orders(plan: PlanInput, told: ToldDay) -> dict[str, bool]:
     """Return the orders of a plan of which was told that they were served, or (False) were not."""
     served: dict[str, bool] = {}
     for route in plan.routes:

@@ -5,7 +5,7 @@ from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
-from app.records.days.fold import Data, Told
+from app.records.days.fold import Data, ToldDay
 from app.records.days.rows import Begun
 from app.records.dispatches.going_on import OnTheRoad, going_on
 from app.records.dispatches.schemas import GoingOnReply, StepReply
@@ -31,7 +31,7 @@ class DayAsked:
     kept: Sequence[str] = field(default_factory=tuple)  # cancelled, or served by others: too late
 
 
-def asked(begun: Begun, told: Told, plan: PlanInput | None,
+def asked(begun: Begun, told: ToldDay, plan: PlanInput | None,
           steps: Mapping[str, Sequence[StepReply]], now: float, seen: int,
           kept: Collection[str] = ()) -> DayAsked:
     """Return the request of `POST /plan` that goes on from a day's plan.
@@ -87,7 +87,7 @@ def _released(order: Data, at: float | None) -> Data:
     return order if at is None else {**order, "release_time": at}
 
 
-def delayed(plan: PlanInput, told: Told, steps: Mapping[str, Sequence[StepReply]],
+def delayed(plan: PlanInput, told: ToldDay, steps: Mapping[str, Sequence[StepReply]],
             seen: int) -> PlanInput:
     """Return a plan with the ways longer that vehicles were told to be late on, since it was made.
     """
@@ -102,7 +102,7 @@ def delayed(plan: PlanInput, told: Told, steps: Mapping[str, Sequence[StepReply]
         for route in plan.routes])})
 
 
-def _delayed(route: RouteInput, by: float, told: Told) -> RouteInput:
+def _delayed(route: RouteInput, by: float, told: ToldDay) -> RouteInput:
     """Return a route all of which that wasn't told is later, but for what waits for it anyway."""
     standing = told.standings.get(route.vehicle, {})
     trips, is_behind = [], False
@@ -129,7 +129,7 @@ def _later(stop: StopInput, by: float) -> StopInput:
                                    for name in ("arrival", "service_start", "departure")})
 
 
-def too_late(errors: Collection[InputError], request: Mapping[str, Any], told: Told) -> set[str]:
+def too_late(errors: Collection[InputError], request: Mapping[str, Any], told: ToldDay) -> set[str]:
     """Return the orders that a request lacks, and that can't be taken back any more."""
     gone = {*told.cancelled, *told.elsewhere}
     names = [_name_at(request, error.path) for error in errors

@@ -18,7 +18,7 @@ from sqlalchemy.exc import SQLAlchemyError
 from app.maps.roads.roads import Roads
 from app.plans.flights.answering import flights_by_vehicle
 from app.records.clock import now_ms
-from app.records.days.fold import Told, fold
+from app.records.days.fold import ToldDay, fold
 from app.records.days.news import news_of
 from app.records.days.planning import DayAsked, asked, too_late
 from app.records.days.rows import Begun, DayRow
@@ -159,7 +159,7 @@ class DayRunner:
                        reply, problem, begun.terms.eta_threshold)
         self._store.publish(self._with_end(day, plan), self._by, reply, work, rows)
 
-    def _replied(self, day: DayRow, begun: Begun, told: Told, before: PlanInput | None,
+    def _replied(self, day: DayRow, begun: Begun, told: ToldDay, before: PlanInput | None,
                  now: float) -> tuple[DayAsked, dict[str, Any]]:
         """Return what is asked for a day's next plan, and the reply."""
         steps = self._dispatches.steps_by_vehicle(day.id)
@@ -197,6 +197,6 @@ class DayRunner:
         return replace(day, ends_at=ends_at, expires_at=ends_at + kept)
 
 
-def now_of(told: Told) -> int:
+def now_of(told: ToldDay) -> int:
     """Return what time it is on a day, in milliseconds since 1970."""
     return now_ms() if told.clock is None else told.clock

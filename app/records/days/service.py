@@ -16,7 +16,7 @@ from app.records.days.errors import (
 from app.records.days.events import (
     AnyEvent, DayEventsRequest, DroneFlown, DroneLost, OrderCancelled, OrderStated,
 )
-from app.records.days.fold import Told, fold, visits
+from app.records.days.fold import ToldDay, fold, visits
 from app.records.days.news import served_orders
 from app.records.days.rows import Begun, DayRow, DayTerms, LoggedEvent
 from app.records.days.runner import now_of
@@ -167,7 +167,7 @@ class DayService:
             orders=list(_orders(told, plan, row.seconds(now_of(told)))),
             vehicles=_vehicles(told, plan, row), out=told.out)
 
-    def _require_known(self, problem: dict[str, Any], told: Told,
+    def _require_known(self, problem: dict[str, Any], told: ToldDay,
                        events: Iterable[tuple[int, AnyEvent]], raw: Any) -> None:
         """Make sure that events name what there is, and state orders that can be planned.
 
@@ -274,7 +274,7 @@ def _is_of(name: str, counts: dict[str, int]) -> bool:
     return number.isdecimal() and 1 <= int(number) <= counts.get(kind, 0)
 
 
-def _orders(told: Told, plan: PlanInput, now: float) -> Iterable[OrderReply]:
+def _orders(told: ToldDay, plan: PlanInput, now: float) -> Iterable[OrderReply]:
     """Yield how orders stand: those of the plan, those it leaves out, and those it lacks yet."""
     served = served_orders(plan, told)
     seen: set[str] = set()
@@ -299,7 +299,7 @@ def _orders(told: Told, plan: PlanInput, now: float) -> Iterable[OrderReply]:
                              state="served" if order in told.elsewhere else "waiting")
 
 
-def _vehicles(told: Told, plan: PlanInput, row: DayRow) -> list[VehicleReply]:
+def _vehicles(told: ToldDay, plan: PlanInput, row: DayRow) -> list[VehicleReply]:
     names = dict.fromkeys([*(route.vehicle for route in plan.routes), *told.told_at])
     listed = []
     for name in names:

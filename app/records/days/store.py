@@ -13,7 +13,7 @@ from app.records.clock import now_ms
 from app.records.days.errors import DayTakenError
 from app.records.days.rows import Begun, DayRow, DayTerms, LoggedEvent
 from app.records.dispatches.rows import ToldRow
-from app.records.dispatches.store import FAST, Work, add_events, put_work
+from app.records.dispatches.store import FAST, VehicleWork, add_events, put_work
 
 BY_SERVICE, BY_CLIENT = "service", ""
 """Origins of events that no driver told."""
@@ -127,7 +127,7 @@ class DayStore:
             connection.execute(update(DAYS).where(DAYS.c.id == day, DAYS.c.lease_by == by).values(
                 lease_until=now_ms() + round(seconds * 1000)))
 
-    def publish(self, day: DayRow, by: str, reply: Mapping[str, Any], work: Work,
+    def publish(self, day: DayRow, by: str, reply: Mapping[str, Any], work: VehicleWork,
                 told: Sequence[ToldRow]) -> bool:
         """Put a plan in place of the one before, with what follows from it. In place.
 

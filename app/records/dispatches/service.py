@@ -19,7 +19,7 @@ from app.records.dispatches.rows import DispatchRow, VehicleLinkRow
 from app.records.dispatches.schemas import DispatchRequest, GoingOnReply, StepReply
 from app.records.dispatches.standing import Standing, standing_of
 from app.records.dispatches.steps import StepMaker
-from app.records.dispatches.store import DispatchStore, Flown, Work
+from app.records.dispatches.store import DispatchStore, Flown, VehicleWork
 from app.records.dispatches.validation import require_drivable
 from app.requests.conversion.locating import at_addresses
 from app.schemas.check import PlannedProblem
@@ -237,7 +237,7 @@ class DispatchService:
 
 
 def work_by(request: PlannedProblem, there: Sequence[VehicleLinkRow], dispatch: str,
-            flown: Flown) -> tuple[Work, list[NewToken]]:
+            flown: Flown) -> tuple[VehicleWork, list[NewToken]]:
     """Return what vehicles do by a plan, and the tokens of links that it makes.
 
     `there` are the links that there are: a vehicle that does nothing any more keeps its own.
@@ -249,7 +249,7 @@ def work_by(request: PlannedProblem, there: Sequence[VehicleLinkRow], dispatch: 
     first = 1 + max((link.position for link in there), default=-1)
     links = [(VehicleLinkRow(token.id, dispatch, position, name, token.digest), steps[name])
              for position, (name, token) in enumerate(tokens.items(), first)]
-    return Work([(link, steps.get(link.vehicle, [])) for link in there], links,
+    return VehicleWork([(link, steps.get(link.vehicle, [])) for link in there], links,
                 flown), list(tokens.values())
 
 

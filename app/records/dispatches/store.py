@@ -27,7 +27,7 @@ Flown = Mapping[str, Sequence[Flight]]
 
 
 @dataclass(frozen=True)
-class Work:
+class VehicleWork:
     """What vehicles do by another plan of their day."""
 
     steps: Sequence[tuple[VehicleLinkRow, Sequence[StepReply]]]  # that links have from now on
@@ -141,7 +141,7 @@ class DispatchStore:
             _revoke(connection, [former.id])
             _add_link(connection, link, work)
 
-    def change(self, dispatch: str, plan: PlanInput, work: Work) -> None:
+    def change(self, dispatch: str, plan: PlanInput, work: VehicleWork) -> None:
         """Put another plan in a dispatch's place. In place."""
         with self._engine.begin() as connection:
             connection.execute(update(DAYS).where(DAYS.c.id == dispatch)
@@ -208,7 +208,7 @@ def add_events(connection: Connection, day: str, revision: int, origin: str,
     return last
 
 
-def put_work(connection: Connection, dispatch: str, work: Work) -> None:
+def put_work(connection: Connection, dispatch: str, work: VehicleWork) -> None:
     """Have links tell what their vehicles do by another plan. In place."""
     for link, listed in work.steps:
         connection.execute(update(LINKS).where(LINKS.c.id == link.id).values(

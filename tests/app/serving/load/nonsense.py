@@ -173,7 +173,9 @@ def routes(server: Server, description: Data) -> Iterator[Route]:
     sent = dispatched(server.client)
     link = sent["links"][0]
     job = server.client.post("/jobs", json=example()).json()["id"]
-    there = {"job_id": job, "dispatch_id": sent["id"], "plan_id": "mine", "link_id": link["id"]}
+    day = server.client.post("/days", json={"problem": example()}).json()["id"]
+    there = {"job_id": job, "dispatch_id": sent["id"], "plan_id": "mine", "link_id": link["id"],
+             "day_id": day}
     schemas = description["components"]["schemas"]
     for path, operations in description["paths"].items():
         for method, operation in operations.items():
