@@ -64,7 +64,8 @@ def wave_of(day: Day, epoch: int, waiting: Sequence[Request], look_ahead: int) -
                       np.zeros((len(at), 2)), unassigned_cost=LEFT_OUT)
     last = min(day.epochs[-1], epoch + look_ahead)
     return Wave(problem, tuple(range(places, len(at))),
-                tuple([day.departure(each) * UNIT for each in range(epoch, last + 1)]))
+                tuple([day.departure(each) * UNIT for each in range(epoch, last + 1)]),
+                goes_on=last < day.epochs[-1])
 
 
 def _customer(request: Request) -> Customer:

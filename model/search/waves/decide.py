@@ -44,7 +44,7 @@ class WaveConfig:
     last_turns: int = 60_000  # of that for the routes that leave; in a limited time, until it ends
     seconds: float = math.inf
     price_share: float = 0.8
-    """Of what leaving later costs in futures: there will be departures that they don't look at."""
+    """Of what leaving later costs in futures, where departures follow that they don't look at."""
     seed: int = 0
 
 
@@ -149,7 +149,8 @@ def _prices(wave: Wave, seen: Sequence[_Seen], config: WaveConfig) -> dict[int, 
     """Return the price of each open order that leaves later; none where none is known."""
     if not seen:
         return {}
-    costs = config.price_share * np.mean([each.costs for each in seen], axis=0)
+    share = config.price_share if wave.goes_on else 1.0
+    costs = share * np.mean([each.costs for each in seen], axis=0)
     # A detour may be a way that is shorter.
     return dict(zip(wave.open, np.maximum(costs, 0.0).tolist(), strict=True))
 

@@ -31,6 +31,7 @@ class Wave:
     problem: Problem  # open orders are customers, and so are places where orders may come
     open: tuple[int, ...]  # nodes
     departures: tuple[int, ...]  # ms, ascending: now, then those looked ahead at
+    goes_on: bool = True  # there are departures after those
 
     def __post_init__(self) -> None:
         problem = self.problem

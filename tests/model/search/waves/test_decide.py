@@ -70,6 +70,14 @@ def test_an_order_waits_for_one_that_will_come_near() -> None:
     assert found.outlooks[1].saved == pytest.approx(18.0)
 
 
+@pytest.mark.parametrize(("goes_on", "price"), [(True, 9.0), (False, 18.0)])
+def test_what_leaving_later_costs_counts_less_where_more_departures_follow(
+        goes_on: bool, price: float) -> None:
+    wave = replace(wave_of((3, URGENT), (2, EASY)), goes_on=goes_on)
+    found = decide(wave, lambda rng: (), replace(FEW, price_share=0.5))
+    assert found.outlooks[1].saved == pytest.approx(price)
+
+
 def test_without_a_forecast_orders_leave_as_late_as_is_safe() -> None:
     found = decide(wave_of((3, URGENT), (2, EASY)), None, FEW)
     assert leaves(found.plan) == [5]
