@@ -29,6 +29,7 @@ from app.maps.streets.gallery import Gallery
 from app.maps.streets.routes import router as streets_router
 from app.plans.desk import CHECKED_AT_ONCE, PlanDesk
 from app.plans.flights.routes import router as flights_router
+from app.plans.pictures.routes import router as pictures_router
 from app.plans.routes import router as plans_router
 from app.plans.workplace import opened, opened_with
 from app.records.days.routes import router as days_router
@@ -107,9 +108,9 @@ def create_app(settings: Settings | None = None, planner: Planner | None = None)
     app.state.lookups = new_lookups()
     observer.enter(app)
     shutdown = prepare_for_load(app, settings)
-    for router in (plans_router, flights_router, health_router, jobs_router, dispatches_router,
-                   days_router, kept_router, vroom_router, sheets_router, addresses_router,
-                   streets_router, metrics_router(settings)):
+    for router in (plans_router, flights_router, pictures_router, health_router, jobs_router,
+                   dispatches_router, days_router, kept_router, vroom_router, sheets_router,
+                   addresses_router, streets_router, metrics_router(settings)):
         app.include_router(router)
     _map_errors(app)
     mount_drivers_page(app)

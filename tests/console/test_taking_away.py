@@ -68,7 +68,8 @@ def test_gpx_is_for_degrees_alone(console: Page) -> None:
 def test_picture_is_saved_as_svg_and_png(console: Page) -> None:
     page = opened(console, "city_day")
     picture = ElementTree.fromstring(saved(page, "SVG"))
-    assert len(picture.findall(".//{*}polyline")) > 5
+    assert len(picture.findall(".//{*}path")) > 20
+    assert "hub-north" in "".join(picture.itertext())
     assert saved(page, "PNG").startswith(b"\x89PNG")
 
 

@@ -71,7 +71,7 @@ def rows_of(scene: DrawnPlan) -> list[ActivityRow]:
         bars = tuple(bar for bar in _truck_bars(scene, route, kind) if bar.end >= bar.start)
         windows = [_window(scene, stop.id, stop.ready, stop.service_start)
                    for trip in route.trips for stop in trip.stops if stop.kind == "customer"]
-        rows.append(ActivityRow(route.vehicle, index, False, bars, _stated(windows)))
+        rows.append(ActivityRow(scene.called(route.vehicle), index, False, bars, _stated(windows)))
         rows += [_drone_row(scene, index, route, drone, kind)
                  for drone in range(_num_drones(route, kind))]
     return rows

@@ -196,7 +196,7 @@ def _trip_handles(scene: DrawnPlan) -> list[Line2D]:
     for index, number, route, trip in trips[:MAX_LEGEND]:
         served = sum(stop.kind == "customer" for stop in trip.stops)
         served += sum(len(sortie.customers) for sortie in trip.sorties)
-        name = label(route.vehicle)
+        name = label(scene.called(route.vehicle))
         if len(route.trips) > 1:
             name += f", trip {number + 1}"
         handles.append(Line2D([], [], color=trip_colour(index, number), linewidth=1.8,

@@ -55,7 +55,7 @@ def _cost_table(scene: DrawnPlan) -> str:
 def _route_section(scene: DrawnPlan, route: RouteInput) -> str:
     rows = [row for number, trip in enumerate(route.trips, 1)
             for row in _trip_rows(scene, number, trip)]
-    table = _table(f"Stops of {route.vehicle}", STOP_COLUMNS, rows, _NUMBERS)
+    table = _table(f"Stops of {scene.called(route.vehicle)}", STOP_COLUMNS, rows, _NUMBERS)
     return f"<section>{table}</section>\n"
 
 

@@ -13,6 +13,7 @@ from app.maps.roads.roads import NO_ROADS, Roads
 from app.plans.replies import cost_reply, summary_reply
 from app.plans.task import task_of
 from app.requests.conversion.locating import at_addresses
+from app.requests.conversion.names import called
 from app.requests.conversion.places import PlacedRequest
 from app.requests.plan_reading import read_plan
 from app.schemas.customer import CustomerInput
@@ -96,6 +97,10 @@ class DrawnPlan:
     def types(self) -> Mapping[str, VehicleTypeInput]:
         """Vehicle types by id."""
         return {kind.id: kind for kind in self.request.fleet}
+
+    def called(self, vehicle: str) -> str:
+        """Return what people call a vehicle."""
+        return called(self.request.fleet, vehicle)
 
     @cached_property
     def layout(self) -> Layout | None:

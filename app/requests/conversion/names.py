@@ -1,8 +1,10 @@
 """Names of vehicles and drones: those of their type or truck, and a number from 1."""
 
 import re
-from collections.abc import Collection
+from collections.abc import Collection, Sequence
 from typing import NamedTuple
+
+from app.schemas.vehicle import VehicleTypeInput
 
 
 def drones_of(vehicle_type: str, drone_type: str | None) -> str:
@@ -19,6 +21,19 @@ def number_in(prefix: str, name: str) -> int | None:
 def drone_number(name: str) -> int | None:
     """Return the 0-based number of a drone on its truck, at the end of its name."""
     return number_in("", name.rpartition("-")[2])
+
+
+def called(fleet: Sequence[VehicleTypeInput], vehicle: str) -> str:
+    """Return what people call a vehicle: its name if it has one, its type's if it is the only one.
+
+    Of what no type has, it is the name in the plan.
+    """
+    for kind in fleet:
+        number = number_in(f"{kind.id}-", vehicle)
+        if number is not None and number < kind.count:
+            names = kind.names or ([kind.id] if kind.count == 1 else [])
+            return names[number] if number < len(names) else vehicle
+    return vehicle
 
 
 class Named(NamedTuple):

@@ -7,7 +7,6 @@ import {
 } from '../../../app/console/static/js/core/differences.js';
 import { geoJson, gpx, stopsCsv } from '../../../app/console/static/js/core/exports.js';
 import { flownLines } from '../../../app/console/static/js/core/flights.js';
-import { pictureOf, toSvg } from '../../../app/console/static/js/core/picture.js';
 import { contains, indexPlan, keysWithin, spanOf } from '../../../app/console/static/js/core/plan.js';
 import { playback } from '../../../app/console/static/js/core/playback.js';
 import { ACTIVITIES, rowWindows, timelineRows } from '../../../app/console/static/js/core/timeline.js';
@@ -170,7 +169,6 @@ test('files say what drivers are to know', () => {
 test('GPX and SVG write names so that they stay names', () => {
   const vehicle = { ...index.vehicles[0], name: 'a<b&"c"' };
   assert.ok(gpx(vehicle, flownLines(REQUEST)).includes('a&lt;b&amp;&quot;c&quot;, trip 1'));
-  assert.ok(toSvg(pictureOf(index, flownLines(REQUEST))).startsWith('<svg'));
 });
 
 test('differences name what changed and who is served by another', () => {
@@ -221,8 +219,6 @@ test('an open route begins at its place and is drawn to its last stop', () => {
     [5, 5],
     [10, 0],
   ]);
-  const text = toSvg(pictureOf(indexPlan(request, plan), flownLines(request)));
-  assert.ok(text.includes('van'));
 });
 
 test('a vehicle that flies is drawn, told and played as what it is', () => {
@@ -294,5 +290,4 @@ test('a stop at a launch site is told as one, with its own window', () => {
   assert.equal(describe(request, told, pier.key).title, 'Launch site pier');
   const { features } = geoJson(told, flownLines(request));
   assert.ok(features.some(({ properties }) => properties.kind === 'launch_site'));
-  assert.ok(toSvg(pictureOf(told, flownLines(request))).includes('pier'));
 });

@@ -152,6 +152,10 @@ export const postCheck = (body) => json('check', { method: 'POST', body: aboutPl
 /** Return the best places of a customer in a plan. */
 export const postFit = (question) => json('fit', { method: 'POST', body: aboutPlan(question) });
 
+/** Return a picture of a plan, as SVG. */
+export const postPicture = async (question) =>
+  (await send('picture', { method: 'POST', body: aboutPlan(question) })).blob();
+
 /** Return a plan's flights as a file: its name and its content. */
 export async function postFlights(question) {
   const response = await send('flights', { method: 'POST', body: aboutPlan(question) });

@@ -1,6 +1,7 @@
 /** Take the plan away: files, sheets for drivers, pictures. */
 
-import { indexOf, settledOf, shownPlan } from '../actions.js';
+import { indexOf, settledOf, showFailure, shownPlan } from '../actions.js';
+import { postPicture } from '../api.js';
 import { linksByVehicle } from '../core/dispatches.js';
 import { geoJson, gpx, stopsCsv } from '../core/exports.js';
 import { flownLines } from '../core/flights.js';
@@ -46,9 +47,9 @@ export function ExportTab() {
           JSON.stringify(geoJson(index, legsOf)),
         )}>GeoJSON</button></div></section>
     <section class="section"><h3>${t('take.picture')}</h3><div class="buttons">
-      <button type="button" onClick=${() => saveSvg('plan.svg', index, legsOf)}>
+      <button type="button" onClick=${() => savePicture(entry, false)}>
         SVG</button>
-      <button type="button" onClick=${() => savePng('plan.png', index, legsOf)}>PNG
+      <button type="button" onClick=${() => savePicture(entry, true)}>PNG
         </button></div></section>
     <${FlightFiles} entry=${entry} />
     <section class="section"><h3>${t('take.drivers')}</h3>
@@ -75,22 +76,26 @@ function saveJson(name, value) {
   save(name, 'application/json', `${JSON.stringify(value, null, 2)}\n`);
 }
 
-// Few want a picture: what draws it is loaded for who does.
-const pictures = () => import('../core/picture.js');
-
-async function saveSvg(name, index, legsOf) {
-  const { pictureOf, toSvg } = await pictures();
-  save(name, 'image/svg+xml', toSvg(pictureOf(index, legsOf)));
+/** Save a picture that the service draws, as PNG or as it is: SVG. */
+async function savePicture({ request: problem, plan }, isPng) {
+  try {
+    const drawn = await postPicture({ problem, plan });
+    save(isPng ? 'plan.png' : 'plan.svg', ...(isPng ? await pngOf(drawn) : [drawn.type, drawn]));
+  } catch (error) {
+    showFailure(error);
+  }
 }
 
-async function savePng(name, index, legsOf) {
-  const { drawPicture, pictureOf } = await pictures();
-  const picture = pictureOf(index, legsOf);
-  const canvas = document.createElement('canvas');
-  canvas.width = picture.width * PNG_SCALE;
-  canvas.height = picture.height * PNG_SCALE;
-  const context = canvas.getContext('2d');
-  context.scale(PNG_SCALE, PNG_SCALE);
-  drawPicture(context, picture);
-  canvas.toBlob((blob) => save(name, 'image/png', blob), 'image/png');
+/** Return the type and content of a picture as PNG. */
+async function pngOf(drawn) {
+  const image = new Image();
+  image.src = URL.createObjectURL(drawn);
+  await image.decode();
+  URL.revokeObjectURL(image.src);
+  const { naturalWidth: width, naturalHeight: height } = image;
+  const canvas = Object.assign(document.createElement('canvas'), {
+    width: width * PNG_SCALE, height: height * PNG_SCALE,
+  });
+  canvas.getContext('2d').drawImage(image, 0, 0, canvas.width, canvas.height);
+  return ['image/png', await new Promise((resolve) => canvas.toBlob(resolve))];
 }
