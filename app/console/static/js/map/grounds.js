@@ -6,8 +6,8 @@ import { StreetsLayer } from './streets.js';
 
 const L = leaflet();
 
-/** Zooms of the tiles of the ground, which is too coarse for streets. */
-const OF_GROUND = { zooms: [1, 3, 5], minZoom: 2, maxZoom: 12.5 };
+/** Zooms of the tiles of the ground; the last are enlarged as far as one can look. */
+const OF_GROUND = { zooms: [1, 3, 5], minZoom: 2 };
 
 /** Return the layers under the plan: tiles of a server, or streets of the service's extracts. */
 export function groundsOf(config, asksServer, keptClear) {

@@ -10,11 +10,11 @@ import { isVisit, visitsOf } from '../core/visits.js';
 import { asksOf, reachOf, titleOfZone } from '../core/zone-words.js';
 import { zoneAreas } from '../core/zones.js';
 import { leaflet } from '../libraries.js';
-import { Cross, Disc } from './marks.js';
+import { Cross, Disc, Way } from './marks.js';
 
 const L = leaflet();
 
-const LINE = { weight: 2.5, opacity: 0.9, lineCap: 'round', lineJoin: 'round' };
+const LINE = { weight: 3, opacity: 0.9, lineCap: 'round', lineJoin: 'round' };
 const LEG = { weight: 5, opacity: 0, lineCap: 'round', lineJoin: 'round', interactive: false };
 const MOST_LABELS = 30;
 const SETTLED = { weight: 2, opacity: 0.5, dashArray: '1 5' };
@@ -49,12 +49,13 @@ function redOf(dark) {
 export function planLines(index, parts, dark) {
   const legsOf = flownLines(index.request);
   const lines = [];
+  const Kind = index.plan.summary.trips > MOST_LABELS ? L.Polyline : Way;
   for (const vehicle of index.vehicles) {
     const colour = vehicleColour(vehicle.number, dark);
     for (const trip of vehicle.trips) {
       const styles = stylesOf(colour, trip, dark);
       for (const { standing, places } of stretches(trip, parts)) {
-        lines.push(line(trip.key, places, styles[standing]));
+        lines.push(line(trip.key, places, styles[standing], Kind));
       }
       for (const sortie of trip.sorties) {
         const legs = legsOf(sortie).map((leg) => leg.map(latLng));
@@ -121,8 +122,8 @@ export function pixelsOf(map, places) {
   });
 }
 
-function line(key, places, base) {
-  return { key, base, layer: L.polyline(places, { ...base, key }) };
+function line(key, places, base, Kind = L.Polyline) {
+  return { key, base, layer: new Kind(places, { ...base, key }) };
 }
 
 /** Return the customers' marks by key. */

@@ -3,6 +3,9 @@
 import { leaflet } from '../libraries.js';
 
 const L = leaflet();
+const BETWEEN = 160; // pixels between chevrons
+const ROOM = 0.6; // a stretch of the rest of those has one
+const CHEVRON = 5; // pixels
 const MOST_DISCS = 2000; // pictures kept
 
 const discs = new Map();
@@ -36,6 +39,39 @@ export const Cross = L.CircleMarker.extend({
     renderer._fillStroke(context, this);
   },
 });
+
+/** A way whose direction small chevrons tell, where its stretches have room for them. */
+export const Way = L.Polyline.extend({
+  _updatePath() {
+    L.Polyline.prototype._updatePath.call(this);
+    const { _ctx: context, _drawing: isDrawing } = this._renderer;
+    if (!isDrawing || !this._parts.length) return;
+    Object.assign(context, {
+      globalAlpha: this.options.opacity, strokeStyle: this.options.color, lineWidth: 2,
+    });
+    context.setLineDash([]);
+    context.beginPath();
+    for (const part of this._parts) pointAlong(context, part);
+    context.stroke();
+  },
+});
+
+/** Add chevrons to a path, one at the middle of a stretch that is long enough, or several. */
+function pointAlong(context, part) {
+  for (let index = 1; index < part.length; index += 1) {
+    const [from, to] = [part[index - 1], part[index]];
+    const length = from.distanceTo(to);
+    const count = Math.floor(length / BETWEEN + ROOM);
+    const [x, y] = [(to.x - from.x) / length, (to.y - from.y) / length];
+    for (let at = 1; at <= count; at += 1) {
+      const far = ((at - 0.5) * length) / count + CHEVRON / 2;
+      const tip = { x: from.x + x * far, y: from.y + y * far };
+      context.moveTo(tip.x - CHEVRON * (x + y * 0.8), tip.y - CHEVRON * (y - x * 0.8));
+      context.lineTo(tip.x, tip.y);
+      context.lineTo(tip.x - CHEVRON * (x - y * 0.8), tip.y - CHEVRON * (y + x * 0.8));
+    }
+  }
+}
 
 /** Return half of the side of a disc's picture in pixels, whole ones so that it stays sharp. */
 function halfOf({ radius, weight }) {

@@ -2,6 +2,7 @@
 
 import { GAP, placeNames } from '../core/street-labels.js';
 import { leaflet } from '../libraries.js';
+import { pointsOn } from './kept-clear.js';
 
 const L = leaflet();
 const PANE = 'street-names';
@@ -10,6 +11,7 @@ const MOST_SHARPNESS = 2;
 
 /** Kinds in the order in which they are written: font, `[light, dark]`, and from which zoom. */
 const KINDS = {
+  stop: ['500 11px', ['#2b3540', '#d5dde5'], 0],
   place: ['600 12px', ['#59636e', '#aebac6'], 3],
   motorway: ['600 11.5px', ['#6b4d12', '#d8c08d'], 12.5],
   primary: ['600 11.5px', ['#4d5763', '#b8c4d0'], 13],
@@ -21,6 +23,8 @@ const KINDS = {
 const ORDER = Object.keys(KINDS);
 const HALO = ['#ffffffe6', '#141a21e6'];
 const HALO_WIDTH = 3;
+const MOST_STOPS = 60; // that are named
+const LONGEST = 26; // characters of a stop's name
 
 /** A layer that names the streets of a `StreetsLayer` that is on the map. */
 export const StreetNames = L.Renderer.extend({
@@ -95,7 +99,8 @@ export const StreetNames = L.Renderer.extend({
     const context = canvas.getContext('2d');
     this.family = getComputedStyle(this._map.getContainer()).fontFamily;
     const frame = [min.x, min.y, max.x, max.y];
-    const placed = placeNames(this._ways(context), frame, this.keptClear());
+    const ways = this._ways(context);
+    const placed = placeNames(ways, frame, ways.length ? this.keptClear() : []);
     context.setTransform(sharpness, 0, 0, sharpness, 0, 0);
     context.translate(-min.x, -min.y);
     Object.assign(context, { textAlign: 'center', textBaseline: 'middle', lineJoin: 'round' });
@@ -144,6 +149,27 @@ export const StreetNames = L.Renderer.extend({
       this.widths.set(key, context.measureText(text).width);
     }
     return this.widths.get(key);
+  },
+});
+
+/** A layer that names the stops of a `MapView`, where they are few enough to be read. */
+export const StopNames = StreetNames.extend({
+  initialize(view) {
+    StreetNames.prototype.initialize.call(this, new L.Evented(), () => pointsOn(view));
+    this.view = view;
+  },
+
+  _ways(context) {
+    const bounds = this._map.getBounds();
+    const seen = this.view.entries.filter(({ layer, key }) =>
+      key[0] === 'c' && bounds.contains(layer.getLatLng()));
+    if (seen.length > MOST_STOPS) return [];
+    return seen.map(({ key, layer }) => {
+      const text = key.slice(2, 2 + LONGEST);
+      const width = this._widthOf(context, 'stop', text);
+      const { x, y } = this._map.latLngToLayerPoint(layer.getLatLng());
+      return { kind: 'stop', text, width, line: across([x, y], width) };
+    });
   },
 });
 

@@ -27,6 +27,7 @@ import { fitWhole, isSeen } from './fitting.js';
 import { groundsOf } from './grounds.js';
 import { pointsOn } from './kept-clear.js';
 import { ScaleBar } from './scale.js';
+import { StopNames } from './street-names.js';
 import { t } from '../texts.js';
 
 const L = leaflet();
@@ -67,6 +68,7 @@ export class MapView {
     this.credit = L.control.attribution({ prefix: false }).addTo(this.map);
     this.config = geographic ? config : null;
     this.grounds = [];
+    this.names = new StopNames(this);
     new ScaleBar({ metresPerUnit: geographic ? null : planarUnit }).addTo(this.map);
     this.areas = L.layerGroup().addTo(this.map);
     this.shapes = L.layerGroup().addTo(this.map);
@@ -80,6 +82,7 @@ export class MapView {
     this.byKey = new Map(); // entries
     this.touched = []; // entries that are marked, where there are many
     this.trucks = new Map();
+    this.names.addTo(this.map);
     this.tooltip = L.tooltip({ direction: 'top', offset: [0, -6], opacity: 1 });
     this.#listen(onHover, onSelect);
     this.isMoved = true; // from where everything is seen
@@ -144,7 +147,7 @@ export class MapView {
   /** Show the ground in light or dark. */
   shade(dark) {
     this.dark = dark;
-    this.grounds.forEach((ground) => ground.setDark?.(dark));
+    [...this.grounds, this.names].forEach((layer) => layer.setDark?.(dark));
   }
 
   /** Show a problem and, if there is one, its plan; `parts` of it are settled. */
