@@ -824,6 +824,9 @@ export default {
   profile: {
     lands: 'In {{height}} Höhe von {{from}} bis {{until}}, landet bei {{names}}.',
     hovers: 'In {{height}} Höhe von {{from}} bis {{until}}, schwebt bei {{names}}.',
+    axes: 'Höhen sind über dem Gelände.',
+    ground: 'Das liegt {{lowest}} bis {{highest}} über dem Meer.',
+    reserve: 'Reserve',
     left: 'Energie übrig',
     takeOff: 'Beim Start',
     landing: 'Bei der Landung',
@@ -1216,8 +1219,13 @@ export default {
     zones: 'Veröffentlichte Zonen',
     no_fly: 'Flugverbotszonen',
     wind: 'Wind',
-    airspace: 'Abstand zu Gebieten und Zonen',
+    airspace: 'Gebiete und Zonen',
     buffer: 'Abstand',
+    cleared: 'Zonen mit Erlaubnis',
+    conditional: 'Bedingte Zonen',
+    ground: 'Gelände',
+    lowest: 'Tiefster Punkt',
+    highest: 'Höchster Punkt',
     freeze_before: 'Jetzt',
     parcels_back: 'Pakete zurück',
     pin_all: 'Alle festgehalten',
@@ -1255,6 +1263,8 @@ export default {
     enough: 'genug',
   },
   choice: {
+    block: 'sperren Flüge',
+    allow: 'lassen Flüge durch',
     eu_561: 'EU 561/2006',
     eu_561_2002_15: 'EU 561/2006 + 2002/15',
     us_hos: 'US-Arbeitszeiten (HOS)',
@@ -1563,6 +1573,15 @@ export default {
     },
     AirspaceInput: {
       buffer: 'Wie weit Flüge von Flugverbotsgebieten und Zonen wegbleiben. Leer: sie dürfen daran entlang.',
+      cleared: 'Kennungen von Zonen, die nicht sperren, da Sie dort fliegen dürfen.',
+      conditional: 'Ob Zonen mit Bedingungen Flüge sperren.',
+      ground:
+        'Zwischen welchen Höhen über dem Meer das Gelände liegt, damit Grenzen über dem Meer ' +
+        'vergleichbar sind. Leer: unbekannt, solche Zonen sperren dann.',
+    },
+    GroundHeightInput: {
+      lowest: 'Des tiefsten Geländes, über dem Meer.',
+      highest: 'Des höchsten Geländes, über dem Meer.',
     },
     WindInput: {
       speed_kmh: 'Windgeschwindigkeit.',

@@ -814,6 +814,9 @@ export default {
   profile: {
     lands: 'At {{height}} from {{from}} to {{until}}, landing at {{names}}.',
     hovers: 'At {{height}} from {{from}} to {{until}}, hovering at {{names}}.',
+    axes: 'Heights are above the ground.',
+    ground: 'That lies {{lowest}} to {{highest}} above the sea.',
+    reserve: 'reserve',
     left: 'Energy left',
     takeOff: 'At take-off',
     landing: 'At landing',
@@ -1202,8 +1205,13 @@ export default {
     zones: 'Zones as published',
     no_fly: 'No-fly areas',
     wind: 'Wind',
-    airspace: 'Distance to areas and zones',
+    airspace: 'Areas and zones',
     buffer: 'Distance kept',
+    cleared: 'Zones with leave to fly',
+    conditional: 'Conditional zones',
+    ground: 'Ground',
+    lowest: 'Lowest',
+    highest: 'Highest',
     freeze_before: 'Now',
     parcels_back: 'Parcels back',
     pin_all: 'All pinned',
@@ -1241,6 +1249,8 @@ export default {
     enough: 'enough',
   },
   choice: {
+    block: 'block flights',
+    allow: 'let flights through',
     eu_561: 'EU 561/2006',
     eu_561_2002_15: 'EU 561/2006 + 2002/15',
     us_hos: 'US hours of service',
@@ -1541,6 +1551,15 @@ export default {
     },
     AirspaceInput: {
       buffer: 'How far flights keep from no-fly areas and zones. Empty: they may pass along them.',
+      cleared: 'Identifiers of zones that don’t block, as you have leave to fly there.',
+      conditional: 'Whether zones with conditions block flights.',
+      ground:
+        'Between which heights above the sea the ground lies, so that limits above the sea can be ' +
+        'compared. Empty: unknown, and such zones block.',
+    },
+    GroundHeightInput: {
+      lowest: 'Of the lowest ground, above the sea.',
+      highest: 'Of the highest ground, above the sea.',
     },
     WindInput: {
       speed_kmh: 'Speed of the wind.',

@@ -147,7 +147,8 @@ function CustomerRow({
       ${t(`customers.by.${customer.served_by ?? 'either'}`)}</td>`}
     ${index && html`<td class=${`number ${late || !halt ? 'late-text' : ''}`}>${
       halt ? clock(halt.arrival) : t('customers.notServed')}${late && html`<small
-        >${late}</small>`}</td>`}</tr>`;
+        >${late}</small>`}${halt?.alternative && html`<small>${halt.alternative}</small>`}</td>`}
+    </tr>`;
 }
 
 function addCustomer(request) {

@@ -36,7 +36,8 @@ export function Details() {
     <header><h2>${about.title}</h2>
       <${IconButton} name="x" label=${t('app.close')} onClick=${() => select(null)} /></header>
     <div class="inside"><${Facts} facts=${about.facts} />
-      ${flight && html`<${HeightProfile} flight=${flight} rules=${index.plan.rules} />`}
+      ${flight && html`<${HeightProfile} flight=${flight} rules=${index.plan.rules}
+        ground=${request.airspace?.ground} />`}
       ${id !== null && html`<${StopMoves} id=${id} /><${WhyHere} id=${id} />
         <${CustomerForm} key=${id} id=${id} request=${request} isWrong=${wrong !== undefined} />`}
     </div></section>`;

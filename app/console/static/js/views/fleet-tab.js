@@ -31,6 +31,9 @@ const TOPICS = {
   energy: ['energy', 'co2_kg_per_km', 'co2_kg_per_kwh'],
 };
 
+/** What is said of zones alone. */
+const OF_ZONES = ['cleared', 'conditional', 'ground'];
+
 /** The tab. */
 export function FleetTab() {
   const request = useStore((state) => state.request);
@@ -93,7 +96,7 @@ export function FleetTab() {
       )}
       <p class="help">${t('fleet.dropZones')}</p>
     </fieldset>
-    <${Buffer} request=${request} schema=${schemas.AirspaceInput.properties.buffer} />
+    <${Airspace} request=${request} properties=${schemas.AirspaceInput.properties} />
     <fieldset class="group"><legend>${t('fleet.leftOut')}</legend>
       <${Field} name="unassigned_cost" schema=${properties.unassigned_cost}
         keys=${['unassigned_cost']}
@@ -103,12 +106,13 @@ export function FleetTab() {
   </div>`;
 }
 
-/** How far flights keep from areas and zones; a distance is proposed where there are any. */
-function Buffer({ request, schema }) {
+/** What flights keep from areas and zones, and which zones block; a distance is proposed. */
+function Airspace({ request, properties }) {
   const { no_fly: areas = [], zones = [], buffer } = request.airspace ?? {};
   return html`<fieldset class="group"><legend>${t('field.airspace')}</legend>
-    <${Field} name="buffer" schema=${schema} keys=${['airspace', 'buffer']} request=${request}
-      owner="AirspaceInput" onChange=${edit} />
+    ${['buffer', ...(zones.length ? OF_ZONES : [])].map((name) => html`<${Field} key=${name}
+      name=${name} schema=${properties[name]} keys=${['airspace', name]} request=${request}
+      owner="AirspaceInput" onChange=${edit} />`)}
     ${areas.length + zones.length > 0 && buffer === undefined && html`<div class="buttons">
       <button type="button" onClick=${() => edit(withBuffer(request))}>
         ${t('fleet.keepAway', { count: PROPOSED_BUFFER_M })}</button></div>`}

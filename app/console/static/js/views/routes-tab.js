@@ -164,7 +164,8 @@ function Stop({ index, halt, selection, hovered, columns }) {
       <${SelectButton} of=${halt.key}>${halt.id}</${SelectButton}>${isLocked
         && halt.kind === 'customer' && html` <span
           class="lock-mark">${t('routes.locked')}</span>`}${noteOf(halt)
-        && html` <span class="help">${noteOf(halt)}</span>`}</th>
+        && html` <span class="help">${noteOf(halt)}</span>`}${halt.alternative
+        && html` <span class="help">${t('about.servedAt')} ${halt.alternative}</span>`}</th>
     <td>${clock(halt.arrival)}${halt.waiting > 0 && html` <span
       class="help">+${duration(halt.waiting)}</span>`}</td>
     ${columns.window && html`<td>${isVisit(halt) ? windowOf(halt) : ''}</td>`}
