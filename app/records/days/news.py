@@ -13,13 +13,17 @@ from app.schemas.plan import PlanInput, TripInput
 from app.schemas.request import PlanRequest
 
 
-def news_of(number: int, at: int, told: ToldDay, before: PlanInput | None, plan: PlanInput,
-            reply: Mapping[str, Any], problem: PlanRequest, threshold: float) -> list[ToldRow]:
-    """Return the events of a plan that was just made, `at` being now in ms since 1970."""
+def news_of(number: int, planned: int, at: int, told: ToldDay, before: PlanInput | None,
+            plan: PlanInput, reply: Mapping[str, Any], problem: PlanRequest,
+            threshold: float) -> list[ToldRow]:
+    """Return the events of a plan that was just made, `at` being now in ms since 1970.
+
+    It counts with events up to the one numbered `planned`.
+    """
     was = {order: vehicle for order, vehicle, _ in visits(before or PlanInput(routes=()))}
     moved = sum(was.get(order, vehicle) != vehicle for order, vehicle, _ in visits(plan))
     rows = [_row(number, at, "plan.changed", "", {
-        "plan_number": number, "cost": reply["cost"]["total"], "moved": moved,
+        "plan_number": number, "planned": planned, "cost": reply["cost"]["total"], "moved": moved,
         "left_out": len(reply["unassigned"])})]
     served = served_orders(plan, told)
     for order, vehicle, visit in visits(plan):

@@ -155,8 +155,8 @@ class DayRunner:
         work, _ = work_by(request, self._dispatches.links(day.id), day.id,
                           flights_by_vehicle(request.problem, plan, self._roads,
                                              instant(day.plan_start)))
-        rows = news_of(day.plan_number + 1, round(day.plan_start + 1000 * now), told, before, plan,
-                       reply, problem, begun.terms.eta_threshold)
+        rows = news_of(day.plan_number + 1, day.asked, round(day.plan_start + 1000 * now), told,
+                       before, plan, reply, problem, begun.terms.eta_threshold)
         self._store.publish(self._with_end(day, plan), self._by, reply, work, rows)
 
     def _replied(self, day: DayRow, begun: Begun, told: ToldDay, before: PlanInput | None,

@@ -13,7 +13,9 @@ from app.records.clock import now_ms
 from app.records.days.errors import DayTakenError
 from app.records.days.rows import Begun, DayRow, DayTerms, LoggedEvent
 from app.records.dispatches.rows import ToldRow
-from app.records.dispatches.store import FAST, VehicleWork, add_events, put_work
+from app.records.dispatches.store import (
+    FAST, VehicleWork, add_events, put_work, revision_of,
+)
 
 BY_SERVICE, BY_CLIENT = "service", ""
 """Origins of events that no driver told."""
@@ -88,9 +90,7 @@ class DayStore:
         """
         names = [event.id for event in events]
         with self._engine.begin() as connection:
-            # Of two who tell at once, one waits.
-            revision = connection.scalar(
-                select(DAYS.c.revision).where(DAYS.c.id == day).with_for_update()) or 0
+            revision = revision_of(connection, DAYS.c.id == day) or 0
             there = _numbers(connection, day, names)
             new = {event.id: event for event in events if event.id not in there}
             refuse(revision + len(new))
@@ -178,8 +178,7 @@ def _held(connection: Connection, day: str, by: str) -> int | None:
 
     No other adds to it meanwhile.
     """
-    return connection.scalar(select(DAYS.c.revision).where(
-        DAYS.c.id == day, DAYS.c.lease_by == by).with_for_update())
+    return revision_of(connection, (DAYS.c.id == day) & (DAYS.c.lease_by == by))
 
 
 def _numbers(connection: Connection, day: str, names: Collection[str]) -> dict[str, int]:

@@ -6,7 +6,7 @@ from dataclasses import asdict, dataclass, fields
 from typing import Any
 
 from pydantic import TypeAdapter
-from sqlalchemy import Connection, Engine, delete, func, insert, select, update
+from sqlalchemy import ColumnElement, Connection, Engine, delete, func, insert, select, update
 
 from app.database.tables import DAYS, EVENTS, LINKS
 from app.plans.flights.flight import Flight
@@ -175,9 +175,7 @@ class DispatchStore:
         origin = str(link.position)
         mine = (EVENTS.c.day == link.dispatch, EVENTS.c.origin == origin)
         with self._engine.begin() as connection:
-            # Of two that tell at once, one waits.
-            revision = connection.scalar(select(DAYS.c.revision).where(
-                DAYS.c.id == link.dispatch).with_for_update()) or 0
+            revision = revision_of(connection, DAYS.c.id == link.dispatch) or 0
             there = set(connection.scalars(select(EVENTS.c.id).where(*mine)))
             new = {event.id: event for event in events if event.id not in there}
             refuse(len(there) + len(new))
@@ -194,6 +192,15 @@ class DispatchStore:
             for vehicle, *row in connection.execute(statement):
                 found.setdefault(vehicle, []).append(EventRow(*row))
         return found
+
+
+def revision_of(connection: Connection, day: ColumnElement[bool]) -> int | None:
+    """Return the number of a day's last event, to which no other adds meanwhile; None: no such day.
+
+    It is written: SQLite keeps others away from what is written alone.
+    """
+    return connection.scalar(
+        update(DAYS).where(day).values(revision=DAYS.c.revision).returning(DAYS.c.revision))
 
 
 def add_events(connection: Connection, day: str, revision: int, origin: str,

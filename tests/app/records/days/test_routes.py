@@ -3,6 +3,7 @@
 import json
 import time
 from collections.abc import Iterator
+from concurrent.futures import ThreadPoolExecutor
 from datetime import UTC, datetime, timedelta
 from typing import Any
 
@@ -78,6 +79,22 @@ def test_event_that_is_sent_again_counts_once(service: httpx.Client) -> None:
     assert changed["accepted"] == replies[0]["accepted"][:1]
     names = {each.id for each in planned(service, day).orders}
     assert names == set("ABCDEFG")
+
+
+def test_who_tell_at_once_wait_for_each_other(service: httpx.Client) -> None:
+    day = begun(service)
+    names = [f"G{number}" for number in range(24)]
+
+    def tell(name: str) -> int:
+        reply = service.post(f"/days/{day}/events", json=[
+            {"event_id": name, "at": 1, **order(name, 1, 1)}])
+        assert reply.status_code == 202, reply.text
+        return int(reply.json()["accepted"][0]["number"])
+
+    with ThreadPoolExecutor(8) as pool:
+        numbers = list(pool.map(tell, names))
+    assert len(set(numbers)) == len(names)
+    assert {each.id for each in planned(service, day).orders} == {*"ABCDEF", *names}
 
 
 def test_same_request_finds_its_day(service: httpx.Client) -> None:
