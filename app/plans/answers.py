@@ -5,6 +5,7 @@ from collections.abc import Callable
 from app.plans.checking import answer_check
 from app.plans.explaining import Subject, answer_explain, explain_job
 from app.plans.fitting import answer_fit
+from app.plans.quoting import answer_quote
 from app.plans.workplace import Workplace
 from app.schemas.explain import ExplainOptions
 from app.schemas.request import PlanRequest
@@ -32,6 +33,11 @@ def explain(place: Workplace, body: ReceivedBody, should_stop: ShouldStop) -> by
 def fit(place: Workplace, body: ReceivedBody, should_stop: ShouldStop) -> bytes:
     """Answer `POST /fit`."""
     return answer_fit(body, place.bounds, should_stop, place.service.roads)
+
+
+def quote(place: Workplace, body: ReceivedBody, should_stop: ShouldStop) -> bytes:
+    """Answer `POST /quote`, and quotes of days."""
+    return answer_quote(body, place.bounds, should_stop, place.service.roads)
 
 
 def explain_planned(place: Workplace, request: PlanRequest, reply: bytes, subject: Subject,

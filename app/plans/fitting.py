@@ -52,8 +52,8 @@ def answer_fit(body: ReceivedBody, bounds: Bounds,
     solution = timed_plan(task, request.plan, (PLAN,))
     problem, judged = task.judged_problem, task.judge_routes(solution)
     evaluation = task.setting.judge(problem, solution, judged)
-    _require_readable(evaluation)
-    bench = _bench(task, request, solution, judged)
+    require_readable(evaluation)
+    bench = bench_of(task, request, solution, judged)
     now, limit = time.perf_counter(), request.options.time_limit
     until = max(body.received_at + ANSWERING_SHARE * limit, now + LEAST_TRYING * limit)
     fits = find_fits(bench, request.count, until,
@@ -90,7 +90,7 @@ def read_fit(body: bytes, bounds: Bounds) -> FitRequest:
     return request
 
 
-def _require_readable(evaluation: Evaluation) -> None:
+def require_readable(evaluation: Evaluation) -> None:
     """Refuse a plan with routes whose times can't be told; raises `InvalidRequestError`."""
     if all(metrics.trips for metrics in evaluation.routes):
         return
@@ -98,7 +98,7 @@ def _require_readable(evaluation: Evaluation) -> None:
                        "correct it.")
 
 
-def _bench(task: Task, request: FitRequest, solution: Solution,
+def bench_of(task: Task, request: FitRequest, solution: Solution,
            judged: Mapping[int, JudgedRoute]) -> Bench:
     """Return what tries the customer or shipment at places of a plan."""
     problem = task.judged_problem

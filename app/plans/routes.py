@@ -10,6 +10,7 @@ from app.schemas.check import CheckReply, CheckRequest
 from app.schemas.explain import ExplainReply, ExplainRequest
 from app.schemas.fit import FitReply, FitRequest
 from app.schemas.openapi import ERROR_RESPONSES, EXAMPLES, json_body
+from app.schemas.quote import QuoteReply, QuoteRequest
 from app.schemas.request import PlanRequest
 from app.schemas.response import PlanReply, WarningsReply
 from app.serving.access.guard import Plan
@@ -74,6 +75,16 @@ async def explain(request: Request, principal: Plan, planning: Planning, body: B
                   plans: Plans) -> Response:
     """Return what it would cost to serve a customer elsewhere, and what drones save."""
     reply = await plans.answer(planning, request, answers.explain, body)
+    return Response(reply, media_type="application/json")
+
+
+@router.post("/quote", summary="Price slots for an order", tags=["planning"],
+             response_model=QuoteReply, responses=CHECK_ERROR_RESPONSES,
+             openapi_extra=json_body(QuoteRequest))
+async def quote(request: Request, principal: Plan, planning: Planning, body: Body,
+                plans: Plans) -> Response:
+    """Return for each slot of an order whether a plan can keep it, and what it costs more."""
+    reply = await plans.answer(planning, request, answers.quote, body)
     return Response(reply, media_type="application/json")
 
 

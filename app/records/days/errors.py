@@ -24,6 +24,13 @@ class NoDayPlanError(RequestError, status=409, name="no-day-plan"):
     always = "The day's first plan isn't made yet: ask again, or follow its events."
 
 
+class QuoteLapsedError(RequestError, status=410, name="quote-lapsed"):
+    """A quote is accepted too late, or is none."""
+
+    title = "The quote has lapsed"
+    always = "No quote of this day has this token, or it has lapsed: ask for another."
+
+
 class DayOverError(RequestError, status=409, name="day-over"):
     """The day is over."""
 

@@ -11,21 +11,27 @@ from pydantic_core import to_json
 from sqlalchemy import Engine
 from sse_starlette import EventSourceResponse, ServerSentEvent
 
+from app.plans import answers
+from app.plans.routes import Plans
 from app.records.days.events import DayEventsRequest
 from app.records.days.fold import KINDS
 from app.records.days.rows import DayRow
 from app.records.days.runner import DayRunner
 from app.records.days.schemas import (
-    DayEventsReply, DayPlanReply, DayReply, DayRequest, LoggedReply,
+    AcceptRequest, DayEventsReply, DayPlanReply, DayReply, DayRequest, LoggedReply,
 )
 from app.records.days.service import DayService, logged
 from app.records.days.store import DayStore
+from app.records.dispatches.store import DispatchStore
 from app.records.jobs.events import while_admitted
 from app.records.prepared import Database, PreparedDatabase
 from app.requests.bounds import Bounds
 from app.schemas.openapi import event_stream, json_body, problems
+from app.schemas.quote import OrderAsked, QuoteReply
 from app.serving.access.guard import Guard, Jobs
+from app.serving.load.abandoned import Planning
 from app.serving.load.bodies import Body
+from app.serving.load.received import ReceivedBody
 
 router = APIRouter(tags=["days"])
 
@@ -44,6 +50,9 @@ BEGUN = problems(400, 413, 422, _409="Another day has this name.",
 TOLD = problems(400, 413, 422, _404="There is no such day, or it is another's.",
                 _409="The day is over, or full.", _503=UNAVAILABLE)
 
+QUOTED = TOLD | problems(_409="The day is over, or has no plan yet.")
+
+Token = Annotated[str, Path(max_length=20_000, description="That of the quote.")]
 DayId = Annotated[str, Path(max_length=64, description="Id of the day.")]
 
 
@@ -79,6 +88,32 @@ async def tell_day(request: Request, day_id: DayId, principal: Jobs, database: D
     """Keep events, all or none; those that were told before count once. A plan follows."""
     reply = await database.reach(lambda engine: _service(request, engine).tell(
         day_id, principal.key_id, body.content))
+    _hurry(request)
+    return _json(reply, 202)
+
+
+@router.post("/days/{day_id}/quote", summary="Price slots for an order of a day",
+             response_model=QuoteReply, responses=QUOTED, openapi_extra=json_body(OrderAsked))
+async def quote_day(request: Request, day_id: DayId, principal: Jobs, database: Database,
+                    planning: Planning, plans: Plans, body: Body) -> Response:
+    """Return for each slot whether the day can keep it and its cost, and a token to accept one."""
+    asked = await database.reach(lambda engine: _service(request, engine).asked_of(
+        day_id, principal.key_id, body.content))
+    reply = await plans.answer(planning, request, answers.quote,
+                               ReceivedBody(asked, body.received_at))
+    quoted = await database.reach(lambda engine: _service(request, engine).quoted(
+        day_id, principal.key_id, body.content, reply))
+    return Response(to_json(quoted), media_type="application/json")
+
+
+@router.post("/days/{day_id}/quotes/{token}/accept", summary="Accept a slot", status_code=202,
+             response_model=DayEventsReply, openapi_extra=json_body(AcceptRequest),
+             responses=TOLD | problems(_410="The quote has lapsed."))
+async def accept_quote(request: Request, day_id: DayId, token: Token, principal: Jobs,
+                       database: Database, body: Body) -> Response:
+    """Have the order count, to be served in the slot; accepted again, it counts once."""
+    reply = await database.reach(lambda engine: _service(request, engine).accept(
+        day_id, principal.key_id, token, body.content))
     _hurry(request)
     return _json(reply, 202)
 
@@ -127,7 +162,7 @@ async def _events(database: PreparedDatabase, row: DayRow,
 
 def _service(request: Request, engine: Engine) -> DayService:
     settings = request.app.state.settings
-    return DayService(DayStore(engine), settings, Bounds.of_plans(settings),
+    return DayService(DayStore(engine), DispatchStore(engine), settings, Bounds.of_plans(settings),
                       request.app.state.plans.policies)
 
 

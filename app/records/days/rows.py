@@ -1,6 +1,6 @@
 """Days and their events as the database has them. Times in milliseconds since 1970."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any
 
@@ -46,6 +46,7 @@ class DayTerms:
     plan_within: float  # seconds
     eta_threshold: float  # seconds
     clock: float | None  # when it begins, if it goes by what it is told: seconds since plan start
+    secret: str  # signs its quotes
 
 
 @dataclass(frozen=True)
@@ -54,6 +55,11 @@ class Begun:
 
     problem: dict[str, Any]
     terms: DayTerms
+
+    def is_same(self, other: "Begun") -> bool:
+        """Tell whether another was asked for by the same request."""
+        return (self.problem == other.problem
+                and replace(self.terms, secret=other.terms.secret) == other.terms)
 
 
 @dataclass(frozen=True)

@@ -6,6 +6,7 @@ from typing import Annotated, Any, Literal
 from pydantic import BaseModel, ConfigDict, Field
 
 from app.schemas.fields import Duration, Input, Instant
+from app.schemas.quote import MAX_SLOTS
 from app.schemas.request import PlanRequest
 from app.schemas.response import PlanReply
 
@@ -34,6 +35,12 @@ class DayRequest(Input):
     eta_threshold: Duration = Field(
         ETA_THRESHOLD, description="By how many seconds an arrival has to move before "
         "`eta.changed` tells it again.")
+
+
+class AcceptRequest(Input):
+    """Which slot of a quote is accepted."""
+
+    slot: Annotated[int, Field(ge=0, lt=MAX_SLOTS)] = Field(description="Its place, from 0.")
 
 
 class _Reply(BaseModel):

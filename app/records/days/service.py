@@ -1,6 +1,7 @@
 """Days as their owners see them: begun, told of, read; methods wait for the database."""
 
 import re
+import secrets
 import uuid
 from collections.abc import Collection, Iterable
 from datetime import UTC, datetime, timedelta
@@ -18,16 +19,18 @@ from app.records.days.events import (
 )
 from app.records.days.fold import ToldDay, fold, visits
 from app.records.days.news import served_orders
+from app.records.days.quoting import accepted, body_of, with_token
 from app.records.days.rows import Begun, DayRow, DayTerms, LoggedEvent
 from app.records.days.runner import now_of
 from app.records.days.schemas import (
-    DayEventsReply, DayReply, DayRequest, LoggedReply, OrderReply, OrderState, TakenReply,
-    VehicleReply,
+    AcceptRequest, DayEventsReply, DayReply, DayRequest, LoggedReply, OrderReply, OrderState,
+    TakenReply, VehicleReply,
 )
 from app.records.days.store import BY_CLIENT, DayStore
 from app.records.days.telling import Steps
 from app.records.dispatches.errors import TooManyDispatchesError
 from app.records.dispatches.instants import PlanStart, instant, milliseconds
+from app.records.dispatches.store import DispatchStore
 from app.requests.bounds import Bounds
 from app.requests.plan_reading import parse_plan
 from app.requests.reading import read_json, read_model, request_errors
@@ -53,17 +56,18 @@ class DayService:
 
     Parameters
     ----------
-    store
-        Where they are kept.
+    store, dispatches
+        Where they, and what their vehicles do, are kept.
     settings
         How long, and how many.
     bounds, policies
         Those of `POST /plan`.
     """
 
-    def __init__(self, store: DayStore, settings: Settings, bounds: Bounds,
-                 policies: Collection[str]) -> None:
+    def __init__(self, store: DayStore, dispatches: DispatchStore, settings: Settings,
+                 bounds: Bounds, policies: Collection[str]) -> None:
         self._store = store
+        self._dispatches = dispatches
         self._settings = settings
         self._bounds = bounds
         self._policies = policies
@@ -85,7 +89,8 @@ class DayService:
             raise InvalidRequestError([error.model_copy(update={
                 "path": f"$.problem{error.path[1:]}"}) for error in errors])
         row = self._row(request, owner, client)
-        terms = DayTerms(request.plan_within, request.eta_threshold, request.clock)
+        terms = DayTerms(request.plan_within, request.eta_threshold, request.clock,
+                         secrets.token_urlsafe())
         return self._store.add(row, Begun(from_json(body)["problem"], terms), self._refuse_more)
 
     def find(self, name: str, owner: str) -> DayRow:
@@ -133,6 +138,29 @@ class DayService:
             accepted=[TakenReply(event_id=event.event_id, number=numbers[event.event_id])
                       for event in events],
             revision=self.find(name, owner).revision)
+
+    def asked_of(self, name: str, owner: str, body: bytes) -> bytes:
+        """Return the request of `POST /quote` about a day as it stands; raises as `body_of`."""
+        return body_of(self._store, self._dispatches, self.find(name, owner), body)
+
+    def quoted(self, name: str, owner: str, body: bytes, reply: bytes) -> dict[str, Any]:
+        """Return the reply to a quote with a token; raises as `find` does."""
+        return with_token(self._store.begun(self.find(name, owner).id), body, reply)
+
+    def accept(self, name: str, owner: str, token: str, body: bytes) -> DayEventsReply:
+        """Have an order count in a slot that was quoted; again, it counts once. In place.
+
+        Raises
+        ------
+        RequestError
+            If there is no such day, the quote has lapsed, or `body` names none of its slots.
+        """
+        row = self.find(name, owner)
+        begun = self._store.begun(row.id)
+        told = fold(begun, self._store.log(row.id), row.plan_start)
+        event = accepted(begun, token, read_model(body, AcceptRequest).slot,
+                         max(0.0, row.seconds(now_of(told))))
+        return self.tell(name, owner, to_json([event]))
 
     def plan(self, name: str, owner: str) -> dict[str, Any]:
         """Return a day's plan, and which it is; times as its problem asks for.

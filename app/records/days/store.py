@@ -47,7 +47,7 @@ class DayStore:
             if day.name is not None:
                 there = _found(connection, day.owner, day.name)
                 if there is not None:
-                    if _request(connection, there.id) != request:
+                    if not _begun(connection, there.id).is_same(begun):
                         raise DayTakenError
                     return there
             refuse(connection.scalar(open_ones) or 0)
@@ -66,8 +66,7 @@ class DayStore:
     def begun(self, day: str) -> Begun:
         """Return with what a day began."""
         with self._engine.connect() as connection:
-            content = from_json(_request(connection, day))
-        return Begun(content["problem"], DayTerms(**content["terms"]))
+            return _begun(connection, day)
 
     def plan(self, day: str) -> dict[str, Any] | None:
         """Return a day's plan, times in seconds; None: there is none yet."""
@@ -168,9 +167,10 @@ def _one(connection: Connection, which: ColumnElement[bool]) -> DayRow | None:
     return None if row is None else DayRow(*row)
 
 
-def _request(connection: Connection, day: str) -> bytes:
-    content = connection.scalar(select(DAYS.c.request).where(DAYS.c.id == day))
-    return zlib.decompress(content or b"")
+def _begun(connection: Connection, day: str) -> Begun:
+    packed = connection.scalar(select(DAYS.c.request).where(DAYS.c.id == day))
+    content = from_json(zlib.decompress(packed or b""))
+    return Begun(content["problem"], DayTerms(**content["terms"]))
 
 
 def _held(connection: Connection, day: str, by: str) -> int | None:

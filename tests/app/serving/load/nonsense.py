@@ -175,7 +175,7 @@ def routes(server: Server, description: Data) -> Iterator[Route]:
     job = server.client.post("/jobs", json=example()).json()["id"]
     day = server.client.post("/days", json={"problem": example()}).json()["id"]
     there = {"job_id": job, "dispatch_id": sent["id"], "plan_id": "mine", "link_id": link["id"],
-             "day_id": day}
+             "day_id": day, "token": "none"}
     schemas = description["components"]["schemas"]
     for path, operations in description["paths"].items():
         for method, operation in operations.items():

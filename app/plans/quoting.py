@@ -1,0 +1,81 @@
+"""What an order that isn't accepted yet would cost a plan, slot by slot."""
+
+from collections.abc import Callable
+from dataclasses import replace
+
+from pydantic_core import to_json
+
+from app.maps.roads.roads import NO_ROADS, Roads
+from app.plans.checking import PLAN, read_about_plan
+from app.plans.explain_replies import more_than_without, placed_reply, rules_reply
+from app.plans.explaining import preparing_within
+from app.plans.fitting import bench_of, require_readable
+from app.plans.replies import Data
+from app.plans.task import task_of
+from app.plans.timing import timed_plan
+from app.requests.bounds import Bounds
+from app.requests.conversion.units import thousandths
+from app.schemas.quote import QuoteReply, QuoteRequest, SlotInput
+from app.serving.load.received import ReceivedBody
+from model.counsel.bench import Bench
+from model.counsel.fitting import find_fits, new_violations
+from model.problem import Problem
+from model.problem.quantities import UNLIMITED
+
+
+def answer_quote(body: ReceivedBody, bounds: Bounds,
+                 should_stop: Callable[[], bool] = lambda: False,
+                 roads: Roads = NO_ROADS) -> bytes:
+    """Return the reply to a request of `POST /quote` as JSON, unless the work is to end.
+
+    The problem and the plan are read once for all slots.
+
+    Raises
+    ------
+    RequestError
+        If `body` is no valid request, the plan has routes that can't be read, or the work is to
+        end.
+    """
+    request = read_about_plan(body.content, bounds, QuoteRequest)
+    task = task_of(request.whole_problem, preparing_within(bounds, should_stop),
+                   roads=roads.with_all_legs())
+    solution = timed_plan(task, request.plan, (PLAN,))
+    judged = task.judge_routes(solution)
+    require_readable(task.setting.judge(task.judged_problem, solution, judged))
+    bench = bench_of(task, request.asked, solution, judged)
+    slots = [_quoted(bench, slot) for slot in request.slots]
+    costs = [(each["cost"], index) for index, each in enumerate(slots) if each["feasible"]]
+    reply: Data = {"slots": slots, "best": min(costs)[1] if costs else None}
+    task.telling.tell(QuoteReply, reply)
+    return to_json(reply)
+
+
+def _quoted(bench: Bench, slot: SlotInput) -> Data:
+    """Return what a slot would cost."""
+    node = bench.node if bench.shipment is None else bench.shipment.delivery
+    there = Bench(_within(bench.problem, node, slot), bench.plan.solution, bench.node,
+                  bench.setting, bench.judged, bench.shipment)
+    found = find_fits(there, 1).places
+    reply: Data = {"earliest": slot.earliest, "latest": slot.latest, "by": slot.by,
+                   "feasible": False, "cost": None, "of_which_future": None, "vehicle": None,
+                   "arrival": None, "why": []}
+    if not found:
+        return reply
+    best = found[0]
+    broken = new_violations(best.bench, best.trial)
+    if broken:
+        return reply | {"why": rules_reply(broken)}
+    placed = placed_reply(best.bench, best.trial, best.companions)
+    return reply | {"feasible": True, "cost": more_than_without(best.bench, best.trial)["total"],
+                    "vehicle": placed["vehicle"], "arrival": placed["service_start"]}
+
+
+def _within(problem: Problem, node: int, slot: SlotInput) -> Problem:
+    """Return a problem with the slot for a customer's windows."""
+    index = node - problem.num_depots
+    customer = replace(
+        problem.customers[index], earliest=thousandths(slot.earliest),
+        latest=UNLIMITED if slot.latest is None else thousandths(slot.latest), gaps=(),
+        served_by=slot.by)
+    return replace(problem, customers=(*problem.customers[:index], customer,
+                                       *problem.customers[index + 1:]))

@@ -1,0 +1,134 @@
+"""Quotes of days: prices of slots, and orders accepted in them."""
+
+import random
+from collections.abc import Iterator
+from typing import Any
+
+import httpx
+import pytest
+
+from app.records.days import quoting
+from app.schemas.quote import QuoteReply
+from app.serving.settings import Settings
+from tests.app.conftest import SearchingPlanner, ready, serving
+from tests.app.records.days.living import (
+    PROBLEM, Data, begun, clock, order, plan_of, planned, served_by, standing, told,
+)
+from tests.seeds import seeds
+
+pytestmark = pytest.mark.slow
+
+NEW = order("N", 1, 2)["customer"]
+SLOTS: list[Data] = [
+    {"earliest": 0, "latest": 400}, {"earliest": 400, "latest": 900, "by": "truck"},
+    {"earliest": 900}, {"earliest": 0, "latest": 100}, {"by": "drone"}]
+
+
+@pytest.fixture(scope="module")
+def service(tmp_path_factory: pytest.TempPathFactory) -> Iterator[httpx.Client]:
+    """Return a client of a service with a database of this module's own."""
+    settings = Settings(data_dir=tmp_path_factory.mktemp("quotes"), drain_seconds=0, role="api")
+    with serving(SearchingPlanner(), settings) as client:
+        yield ready(client)
+
+
+def quoted(client: httpx.Client, day: str, slots: list[Data] = SLOTS,
+           **asked: Any) -> dict[str, Any]:
+    """Return a day's quote for an order."""
+    reply = client.post(f"/days/{day}/quote", json={"order": NEW, "slots": slots} | asked)
+    assert reply.status_code == 200, reply.text
+    QuoteReply.model_validate_json(reply.text)
+    return dict(reply.json())
+
+
+def cheapest(client: httpx.Client, problem: Data, plan: Data, slot: Data) -> float | None:
+    """Return what the cheapest place costs, by `POST /fit`; None: there is none."""
+    window = {name: slot[name] for name in ("earliest", "latest") if name in slot}
+    new = {**NEW, "time_window": window, "served_by": slot.get("by", "either")}
+    places = client.post("/fit", json={"problem": problem, "plan": plan,
+                                       "new_customer": new}).json()["places"]
+    allowed = [place["cost"]["total"] for place in places if place["feasible"]]
+    return min(allowed, default=None)
+
+
+@pytest.mark.parametrize("seed", seeds(9))
+def test_slot_costs_what_its_cheapest_place_does(service: httpx.Client, seed: int) -> None:
+    draw = random.Random(seed)
+    plan = service.post("/plan", json={**PROBLEM, "replan": {"plan": {"routes": []}}}).json()
+    slots = [{"earliest": (begin := draw.randrange(0, 2000)), "latest": begin + length}
+             for length in (0, 60, 600, 3000)] + [{"by": "drone"}]
+    reply = service.post("/quote", json={"problem": PROBLEM, "plan": plan, "order": NEW,
+                                         "slots": slots}).json()
+    costs = [cheapest(service, PROBLEM, plan, slot) for slot in slots]
+    assert [each["cost"] for each in reply["slots"]] == costs
+    assert [each["feasible"] for each in reply["slots"]] == [cost is not None for cost in costs]
+    kept = [index for index, cost in enumerate(costs) if cost is not None]
+    assert reply["best"] == min(kept, key=lambda index: (costs[index], index), default=None)
+    assert all(each["why"] for each in reply["slots"] if not each["feasible"])
+
+
+def test_slot_accepted_is_kept(service: httpx.Client) -> None:
+    day = begun(service)
+    quote = quoted(service, day)
+    assert [each["feasible"] for each in quote["slots"]] == [True, True, True, False, False]
+    assert "N" not in {each.id for each in standing(service, day).orders}
+    path = f"/days/{day}/quotes/{quote['token']}/accept"
+    first, again = (service.post(path, json={"slot": 1}) for _ in range(2))
+    assert (first.status_code, first.json()["accepted"]) == (202, again.json()["accepted"])
+    found = {each.id: each for each in planned(service, day).orders}["N"]
+    assert found.state == "planned"
+    assert found.arrival is not None
+    stop = next(stop for route in plan_of(service, day)["routes"] for trip in route["trips"]
+                for stop in trip["stops"] if stop["id"] == "N")
+    assert 400 <= stop["service_start"] <= 900
+
+
+def test_quote_goes_by_the_day_as_it_stands(service: httpx.Client) -> None:
+    day = begun(service)
+    told(service, day, clock(), at=3000)
+    late = quoted(service, day, [{"latest": 2000}, {"earliest": 3000}])["slots"]
+    assert [each["feasible"] for each in late] == [False, True]
+    assert late[1]["arrival"] >= 3000
+    assert late[1]["vehicle"] in {*served_by(plan_of(service, day)).values(), "van-1", "van-2",
+                                  "van-3"}
+
+
+def test_only_what_was_quoted_is_accepted_and_only_soon(
+        service: httpx.Client, monkeypatch: pytest.MonkeyPatch) -> None:
+    day, other = begun(service), begun(service)
+    token = quoted(service, day)["token"]
+
+    def accept(of: str, by: str, slot: int) -> int:
+        return service.post(f"/days/{of}/quotes/{by}/accept", json={"slot": slot}).status_code
+
+    assert accept(other, token, 0) == 410
+    assert accept(day, token[:-1] + ("A" if token[-1] != "A" else "B"), 0) == 410
+    assert accept(day, token, 3) == 422
+    assert accept(day, token, 40) == 422
+    monkeypatch.setattr(quoting, "LAPSES", -1)
+    assert accept(day, token, 0) == 410
+    assert "N" not in {each.id for each in standing(service, day).orders}
+
+
+def test_shipment_is_quoted_by_when_it_is_brought(service: httpx.Client) -> None:
+    day = begun(service)
+    shipment = {"id": "S", "amount": [1], "pickup": {"location": [1, 1]},
+                "delivery": {"location": [2, 2]}}
+    quote = quoted(service, day, [{"latest": 200}, {"earliest": 1000, "latest": 4000}],
+                   order=None, shipment=shipment)
+    assert [each["feasible"] for each in quote["slots"]] == [False, True]
+    service.post(f"/days/{day}/quotes/{quote['token']}/accept", json={"slot": 1})
+    planned(service, day)
+    stop = next(stop for route in plan_of(service, day)["routes"] for trip in route["trips"]
+                for stop in trip["stops"] if stop["kind"] == "delivery")
+    assert 1000 <= stop["service_start"] <= 4000
+
+
+def test_quote_of_nothing_or_of_two_is_refused(service: httpx.Client) -> None:
+    day = begun(service)
+    for asked in ({}, {"order": NEW, "shipment": {"id": "S", "delivery": {"location": [1, 1]}}}):
+        reply = service.post(f"/days/{day}/quote", json={"slots": SLOTS} | asked)
+        assert reply.status_code == 422
+    ended = service.post(f"/days/{day}/quote", json={
+        "order": NEW, "slots": [{"earliest": 2, "latest": 1}]})
+    assert [error["path"] for error in ended.json()["errors"]] == ["$.slots[0]"]
