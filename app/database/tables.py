@@ -147,6 +147,7 @@ LINKS = Table(
     Column("dispatch", String(36), nullable=False),
     Column("position", Integer, nullable=False),
     Column("vehicle", Text, nullable=False),
+    Column("name", Text),  # that people call it
     Column("digest", LargeBinary(32), nullable=False),
     Column("opened_at", BigInteger),
     Column("revoked_at", BigInteger),

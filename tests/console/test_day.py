@@ -88,7 +88,7 @@ def drivers(page: Page, browser: Browser) -> Iterator[Callable[[str], Page]]:
         address = page.get_by_role("link", name=f"Open the day of {name}").get_attribute("href")
         opened = context.new_page()
         opened.goto(address or "")
-        expect(opened.get_by_text("All is sent.")).to_be_visible()
+        expect(opened.get_by_role("heading", name=name)).to_be_visible()
         return opened
 
     yield phone

@@ -56,7 +56,7 @@ def open_page(phone: BrowserContext, link: Data) -> Page:
     """Open a link as a page that was not open before."""
     page = phone.new_page()
     page.goto(link["url"])
-    expect(page.get_by_role("heading", name=link["vehicle"])).to_be_visible()
+    expect(page.get_by_role("heading", name=link["name"])).to_be_visible()
     return page
 
 

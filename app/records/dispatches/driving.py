@@ -41,7 +41,8 @@ def read_day(store: DispatchStore, token: str) -> DriverDay:
         store.note_opening(link.id)
     steps, flights = store.steps(link.id), store.flights(link.id)
     return DriverDay(
-        link=link.id, vehicle=link.vehicle, time_zone=dispatch.time_zone,
+        link=link.id, vehicle=link.vehicle, name=link.name or link.vehicle,
+        time_zone=dispatch.time_zone,
         plan_start=instant(dispatch.plan_start, dispatch.zone_offset),
         ends_at=instant(dispatch.ends_at, dispatch.zone_offset), steps=steps,
         flights=len(flights), flies=any(each.drone == link.vehicle for each in flights),

@@ -40,7 +40,7 @@ def _link_reply(followed: Followed, known: LinkStanding, base: str,
     steps = [step for step in told if step.id != BREAKDOWN]
     count = sum(step.state == "failed" for step in steps)
     return DriverLinkReply(
-        id=link.id, vehicle=link.vehicle, state=state, url=address,
+        id=link.id, vehicle=link.vehicle, name=link.name or link.vehicle, state=state, url=address,
         qr=None if address is None else qr_of(address),
         opened_at=None if link.opened_at is None else instant(link.opened_at),
         told_at=None if known.told_at is None else instant(known.told_at),

@@ -29,6 +29,7 @@ class VehicleLinkRow:
     position: int
     vehicle: str
     digest: bytes
+    name: str | None = None  # that people call the vehicle; None: its id
     opened_at: int | None = None
     revoked_at: int | None = None
 

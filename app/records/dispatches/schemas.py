@@ -130,6 +130,7 @@ class DriverDay(_Reply):
 
     link: str = Field(description="Id of the link.")
     vehicle: str = Field(description="Id of the vehicle.")
+    name: str = Field(description="What people call it.")
     plan_start: datetime = Field(description="The instant from which seconds count.")
     time_zone: str | None = Field(description="Zone in which to read times.")
     ends_at: datetime = Field(description="When the link ends.")
@@ -177,6 +178,7 @@ class DriverLinkReply(_Reply):
 
     id: str = Field(description="Id of the link.")
     vehicle: str = Field(description="Id of the vehicle.")
+    name: str = Field(description="What people call it.")
     state: LinkState = Field(description="Whether it opens the day, and if not, why.")
     url: str | None = Field(
         None, description="The link itself, told once: when it is made. Send it to the driver."

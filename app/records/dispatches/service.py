@@ -2,7 +2,7 @@
 
 import uuid
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from datetime import UTC, datetime, timedelta
 
 from app.maps.roads.roads import Roads
@@ -22,6 +22,7 @@ from app.records.dispatches.steps import StepMaker
 from app.records.dispatches.store import DispatchStore, Flown, VehicleWork
 from app.records.dispatches.validation import require_drivable
 from app.requests.conversion.locating import at_addresses
+from app.requests.conversion.names import called
 from app.schemas.check import PlannedProblem
 from app.schemas.errors import InputError, InvalidRequestError
 from app.schemas.plan import MAX_INSTANT
@@ -88,7 +89,9 @@ class DispatchService:
         row = self._row(request, owner, client)
         maker = StepMaker(at_addresses(request.problem, request.plan))
         tokens = [DRIVER_TOKENS.make() for _ in request.plan.routes]
-        links = [(VehicleLinkRow(token.id, row.id, position, route.vehicle, token.digest),
+        fleet = request.problem.fleet
+        links = [(VehicleLinkRow(token.id, row.id, position, route.vehicle, token.digest,
+                                 called(fleet, route.vehicle)),
                   maker.steps(route))
                  for position, (route, token) in enumerate(
                      zip(request.plan.routes, tokens, strict=True))]
@@ -169,7 +172,8 @@ class DispatchService:
         former = self._link(row, link)
         token = DRIVER_TOKENS.make()
         self._store.replace_link(former, VehicleLinkRow(token.id, row.id, former.position,
-                                                        former.vehicle, token.digest))
+                                                        former.vehicle, token.digest,
+                                                        former.name))
         return self._followed(row, {token.id: token})
 
     def going_on(self, dispatch: str, owner: str, now: float | None,
@@ -247,10 +251,13 @@ def work_by(request: PlannedProblem, there: Sequence[VehicleLinkRow], dispatch: 
     known = {link.vehicle for link in there}
     tokens = {name: DRIVER_TOKENS.make() for name in steps if name not in known}
     first = 1 + max((link.position for link in there), default=-1)
-    links = [(VehicleLinkRow(token.id, dispatch, position, name, token.digest), steps[name])
+    fleet = request.problem.fleet
+    links = [(VehicleLinkRow(token.id, dispatch, position, name, token.digest,
+                             called(fleet, name)), steps[name])
              for position, (name, token) in enumerate(tokens.items(), first)]
-    return VehicleWork([(link, steps.get(link.vehicle, [])) for link in there], links,
-                flown), list(tokens.values())
+    kept = [(replace(link, name=called(fleet, link.vehicle)), steps.get(link.vehicle, []))
+            for link in there]
+    return VehicleWork(kept, links, flown), list(tokens.values())
 
 
 def is_id(text: str) -> bool:

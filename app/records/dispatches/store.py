@@ -219,7 +219,7 @@ def put_work(connection: Connection, dispatch: str, work: VehicleWork) -> None:
     """Have links tell what their vehicles do by another plan. In place."""
     for link, listed in work.steps:
         connection.execute(update(LINKS).where(LINKS.c.id == link.id).values(
-            **_packed_work(listed, work.flown.get(link.vehicle))))
+            name=link.name, **_packed_work(listed, work.flown.get(link.vehicle))))
     for new, listed in work.links:
         _add_link(connection, new, _packed_work(listed, work.flown.get(new.vehicle)))
 

@@ -8,7 +8,7 @@ import { ask, eventOf, LinkOver, Refused, send } from './queue.js';
 import { forgetDraft } from './reasons.js';
 import { isOther } from './steps.js';
 import { t } from './texts.js';
-import { Day, Message } from './views.js';
+import { calledIn, Day, Message } from './views.js';
 
 const RETRY_MS = 15000;
 const REFRESH_MS = 60000;
@@ -23,7 +23,7 @@ let asked = 0;
 /** Show the day, or why there is none. */
 function draw() {
   if (state.day) {
-    document.title = state.day.vehicle;
+    document.title = calledIn(state.day);
     const doing = {
       onTell: tell,
       onSeen: seeChange,

@@ -32,6 +32,11 @@ export function Message({ text }) {
   return html`<h1>${t('page.title')}</h1><p class="note" role="alert">${text}</p>`;
 }
 
+/** Return what people call the vehicle; days that were kept before may not tell. */
+export function calledIn({ name, vehicle }) {
+  return name ?? vehicle;
+}
+
 /** The whole day. */
 export function Day({ day, waiting, isReached, isChanged, failure, link, onTell, onSeen,
   onLanguage, onFlights }) {
@@ -45,7 +50,7 @@ export function Day({ day, waiting, isReached, isChanged, failure, link, onTell,
     setNavigator(event.target.value);
   };
   return html`<header>
-      <h1>${day.flies ? t('day.flies', { vehicle: day.vehicle }) : day.vehicle}</h1>
+      <h1>${day.flies ? t('day.flies', { vehicle: calledIn(day) }) : calledIn(day)}</h1>
       <p>${t('day.over', { count: countOver(day.steps, found), of: day.steps.length })}</p>
       <p role="status" class=${waiting.length ? 'unsent' : ''}>${sendingText(
         waiting.length,
