@@ -5,7 +5,7 @@
 
 from sqlalchemy import (
     BigInteger, Boolean, Column, Float, Index, Integer, LargeBinary, MetaData, String, Table, Text,
-    false,
+    false, text,
 )
 
 TABLES = MetaData()
@@ -139,6 +139,9 @@ DAYS = Table(
     Column("failure", Text),  # why the last plan failed
     Index("days_by_owner", "owner", "created_at", "id"),
     Index("days_by_name", "owner", "name", unique=True),
+    # Processes look often for days whose plan is behind, of which there are few.
+    Index("days_to_plan", "id", sqlite_where=text("asked > planned"),
+          postgresql_where=text("asked > planned")),
 )
 LINKS = Table(
     "driver_links", TABLES,

@@ -38,7 +38,7 @@ from app.serving.settings import Settings
 
 logger = logging.getLogger(__name__)
 
-LOOK = 0.1
+LOOK = 0.2
 """Seconds between two looks for days that were told of elsewhere."""
 
 AT_ONCE = 2

@@ -6,7 +6,7 @@ from dataclasses import asdict, dataclass, fields
 from typing import Any
 
 from pydantic import TypeAdapter
-from sqlalchemy import ColumnElement, Connection, Engine, delete, func, insert, select, update
+from sqlalchemy import ColumnElement, Connection, Engine, case, delete, func, insert, select, update
 
 from app.database.tables import DAYS, EVENTS, LINKS
 from app.plans.flights.flight import Flight
@@ -211,7 +211,8 @@ def add_events(connection: Connection, day: str, revision: int, origin: str,
         {**asdict(event), "day": day, "origin": origin, "number": number,
          "received_at": received_at} for number, event in enumerate(events, revision + 1)])
     last = revision + len(events)
-    connection.execute(update(DAYS).where(DAYS.c.id == day).values(revision=last, asked=last))
+    connection.execute(update(DAYS).where(DAYS.c.id == day).values(
+        revision=last, asked=case((DAYS.c.request.is_not(None), last), else_=0)))
     return last
 
 

@@ -53,6 +53,8 @@ def upgrade() -> None:
     op.create_index("days_by_owner", "days", ["owner", "created_at", "id"])
     op.create_index("days_by_name", "days", ["owner", "name"], unique=True)
     op.create_index("ix_days_expires_at", "days", ["expires_at"])
+    behind = sa.text("asked > planned")
+    op.create_index("days_to_plan", "days", ["id"], sqlite_where=behind, postgresql_where=behind)
     op.create_table(
         "day_events",
         sa.Column("day", sa.String(36), primary_key=True),
@@ -95,7 +97,7 @@ def downgrade() -> None:
     op.execute("DELETE FROM days WHERE request IS NOT NULL")
     op.execute(_FROM_EVENTS)
     op.drop_table("day_events")
-    for index in ("days_by_owner", "days_by_name", "ix_days_expires_at"):
+    for index in ("days_by_owner", "days_by_name", "ix_days_expires_at", "days_to_plan"):
         op.drop_index(index, "days")
     for name in ("name", "request", *_NUMBERS, "lease_until", "lease_by", "failure"):
         op.drop_column("days", name)
