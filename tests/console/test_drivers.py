@@ -96,7 +96,7 @@ def test_day_is_driven_without_network_and_caught_up(
         (FIRST, "failed", "Nobody there")]
     with opened(settings) as engine, engine.connect() as connection:
         rows = connection.execute(text(
-            "SELECT step FROM driver_events WHERE dispatch = :id ORDER BY number"), sent).all()
+            "SELECT step FROM day_events WHERE day = :id ORDER BY number"), sent).all()
     assert [step for step, in rows] == [DEPART, LAUNCH, FIRST]
 
 
