@@ -23,8 +23,8 @@ import numpy as np
 from model.engine.instance import pack
 from model.problem import FloatArray, Problem
 from model.search.improve import SearchConfig, improve
-from model.search.waves.detours import detours
 from model.search.regions.region import customers_of
+from model.search.waves.detours import detours
 from model.search.waves.future import Forecast, Wave, future_of
 from model.solution import Solution, renumbered
 
@@ -105,6 +105,10 @@ def decide(wave: Wave, forecast: Forecast | None, config: WaveConfig) -> WaveDec
         Draws what may come; None: orders leave as late as is safe.
     config
         Without a time limit, the same seed gives the same decision.
+
+    Returns
+    -------
+    The decision. Its plan isn't judged yet.
     """
     due, must = time.perf_counter() + config.seconds, must_leave(wave)
     seen = list[_Seen]()
