@@ -25,7 +25,7 @@ from model.problem import Problem, limits_chargers
 from model.search.improve import GRACE, Improved, SearchConfig, improve
 from model.search.improve import Progress as Progress
 from model.search.reserve import more_by_plan, usual_reserve
-from model.simulation.extract import extract
+from model.policy.extract import extract
 from model.solution import Solution
 from model.together.exact import MOST_CUSTOMERS
 from model.together.improving import SearchPart, SearchTerms, improve_together

@@ -20,11 +20,11 @@ APP = (("schemas", "database"), ("serving",), ("maps",), ("requests", "console")
 
 MODEL = {
     "problem": "", "solution": "", "engine": "problem solution", "judge": "problem solution",
-    "travel": "problem engine", "simulation": "problem solution engine",
-    "policy": "problem engine simulation", "search": "problem solution engine",
+    "travel": "problem engine", "simulation": "problem engine",
+    "policy": "problem solution engine simulation", "search": "problem solution engine",
     "together": "problem solution judge engine search",
-    "counsel": "problem solution judge",
-    "planner": "problem solution judge engine simulation policy search together",
+    "counsel": "problem solution judge search",
+    "planner": "problem solution judge engine policy search together",
     "replanning": "problem solution judge counsel planner",
     "dialects": "problem solution judge planner",
 }

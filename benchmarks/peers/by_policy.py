@@ -10,7 +10,7 @@ from benchmarks.peers.tandem import plan_to_answer, problem_of
 from model.engine.instance import pack
 from model.planner import decoding_seconds
 from model.policy.decode import DecodeConfig, Policy, decode, load_policy, prepare
-from model.simulation.extract import extract
+from model.policy.extract import extract
 
 SAMPLES_FOR_GREEDY = {"attention": 25, "pointer": 11}
 """How many samples cost as much as the greedy plan; those of `attention` plan only a part anew."""

@@ -25,7 +25,7 @@ from model.policy.decode import DecodeConfig, Policy, decode, load_policy, prepa
 from model.problem import Problem
 from model.search.improve import SearchConfig, improve
 from model.search.strategy import ALL_MOVES
-from model.simulation.extract import extract
+from model.policy.extract import extract
 from model.solution import Solution
 from training.instances import COMPARED, generate
 

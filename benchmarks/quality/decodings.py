@@ -19,7 +19,7 @@ from benchmarks.quality.weights import CLASSES, Case, costs_by_class, judged_cos
 from model.engine.instance import pack
 from model.policy.decode import DecodeConfig, Policy, decode, load_policy, prepare
 from model.search.improve import SearchConfig, improve
-from model.simulation.extract import extract
+from model.policy.extract import extract
 
 WAYS = {"greedy, one view": DecodeConfig(most_views=1), "greedy": DecodeConfig(),
         "128 samples": DecodeConfig("sample", 128)}

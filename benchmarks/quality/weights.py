@@ -25,7 +25,7 @@ from model.judge.check import check
 from model.engine.instance import pack
 from model.problem import Problem
 from model.search.improve import SearchConfig, improve
-from model.simulation.extract import extract
+from model.policy.extract import extract
 from model.solution import Solution
 from training.instances import ALL, DEFAULT_CONFIG, VALIDATION_SIZES, generate
 from training.labels import Actor

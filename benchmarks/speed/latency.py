@@ -34,7 +34,7 @@ from model.judge.check import check
 from model.engine.instance import pack
 from model.planner import Elapsed, PlanResult
 from model.policy.decode import DecodeConfig, decode, load_policy, prepare
-from model.simulation.extract import extract
+from model.policy.extract import extract
 
 EXAMPLE = Path(__file__).parents[2] / "examples" / "table1.json"
 

@@ -784,6 +784,15 @@ int tandem_go_back(tandem_search* search);
    where a trip begins, or ends, there. */
 int tandem_price_move(const tandem_problem_data* data, tandem_search* search, int64_t kind,
                       int64_t slot, int64_t first, int64_t last, int64_t node, double* cost);
+/* Write the cheapest legal places of a customer, or of a shipment by its first pickup, on a route
+   as it is and on trips more of it: what each costs, and its placements as node, how (0: by truck
+   at stop `from`, 1: a halt, 2 and 3: a trip begins or ends, 4: flown to from stop `from` to `to`
+   by `drone`, 5: likewise, before others, 6: as customer number `to` of sortie `from`, 7: behind
+   customer `from` on the same flight), from, to and drone; -1 behind the last of them. Those by
+   truck alone come first, the cheapest first, then those with drones. */
+int tandem_write_places(const tandem_problem_data* data, tandem_search* search, int64_t node,
+                        int64_t slot, const tandem_f64_1d* costs, const tandem_i64_3d* placements,
+                        int64_t* count);
 /* Tell what the cheapest stop beside neighbours costs a customer, where detours alone cost. */
 int tandem_cost_beside(const tandem_problem_data* data, tandem_search* search, int64_t node,
                        double* cost);

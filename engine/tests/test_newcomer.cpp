@@ -1,6 +1,7 @@
 #include <doctest/doctest.h>
 
 #include <array>
+#include <vector>
 
 #include "search/insertion/best.h"
 #include "search/insertion/newcomer.h"
@@ -80,6 +81,29 @@ TEST_CASE("a place that is overlooked isn't taken") {
     best.blink = 0.0;
     CHECK(best.takes(1.0));
     CHECK(best.cost == 1.0);
+}
+
+TEST_CASE("places that are overlooked are listed where they are wanted, the cheapest first") {
+    auto state = seed();
+    PricedPlaces places;
+    Best best{1.0, {state.data(), {1}}};
+    best.listed = &places;
+    Move flight{};
+    flight.between(3, 0, 1, 2).add(How::fly, 9, 1, 2);
+    best.try_move(3.0, flight);
+    best.try_move(infeasible, flight);
+    best.try_made(7.0, [](Move& move) { move.between(3, 0, 4, 5).add(How::serve, 9, 5); });
+    CHECK_FALSE(best.try_behind({9, 3, 0, 2.0, 1.0}, 5, 2, [] { return true; }));
+    CHECK_FALSE(best.try_behind({9, 3, 0, 2.0, 1.0}, 6, 1, [] { return false; }));
+    std::vector<double> costs;
+    std::vector<Int> stops;
+    places.for_each([&](const PricedPlaces::Priced& priced) {
+        costs.push_back(priced.cost);
+        stops.push_back(priced.move.placement[0].from);
+    });
+    CHECK(costs == std::vector{5.0, 7.0, 3.0});
+    CHECK(stops == std::vector<Int>{6, 5, 1});
+    CHECK(best.cost == infeasible);
 }
 
 }  // namespace

@@ -7,7 +7,8 @@ import math
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, replace
 
-from model.counsel.screening import Guess, Screen
+from model.counsel.priced import Offer, legal_offers
+from model.counsel.screening import Guess, Screen, Wanted, of_any
 from model.counsel.shipment_screening import ShipmentScreen
 from model.judge.check import Evaluation, JudgedRoute, check, judge_route
 from model.judge.clock import with_all_setups
@@ -23,7 +24,12 @@ from model.judge.retiming import TimedRoute, read_route, time_route
 from model.judge.rules import Violation
 from model.judge.timing import RouteDecision
 from model.problem import Problem, Shipment
+from model.search.driven import driven_by_search
 from model.solution import Solution
+
+
+MOST_SEARCHED = 2000
+"""Customers of a problem up to which the search is asked."""
 
 
 @dataclass(frozen=True)
@@ -158,16 +164,27 @@ class Bench:
         return cost.total - unassigned_cost(self.problem, own)
 
     def guesses(self, problem: Problem | None = None, until: float = math.inf,
-                only: Vehicle | None = None) -> dict[tuple[Vehicle, Means], list[Guess]]:
+                wanted: Wanted = of_any) -> dict[tuple[Vehicle, Means], list[Guess]]:
         """Return the places of each vehicle and means that may be tried, the likeliest first.
 
-        Those that are found until an instant, on `time.perf_counter`; `only` is whose alone.
+        Those that are found until an instant, on `time.perf_counter`; of vehicles `wanted` alone.
         """
         problem, solution = problem or self.problem, self.left_out.solution
         past = self.setting.past
         if self.shipment is None:
-            return Screen(problem, solution, self.node, past, only=only).guesses(until)
-        return ShipmentScreen(problem, solution, self.shipment, past, only).guesses(until)
+            return Screen(problem, solution, self.node, past, wanted=wanted).guesses(until)
+        return ShipmentScreen(problem, solution, self.shipment, past, wanted).guesses(until)
+
+    def offers(self, until: float = math.inf) -> dict[tuple[Vehicle, Means], list[Offer]] | None:
+        """Return the places of vehicles in use that the search finds legal, the cheapest first.
+
+        None where the search isn't asked, as it doesn't know what has happened, and to open it
+        takes long where there are many; or if that would end after an instant.
+        """
+        if (self.setting.past != EVERYTHING_OPEN
+                or self.problem.num_customers > MOST_SEARCHED):
+            return None
+        return legal_offers(self.problem, self.left_out.solution, self.nodes, until)
 
     def decide(self, place: Place, problem: Problem | None = None) -> tuple[int, RouteDecision]:
         """Return the index of a route, and it with the customer at a place, without times."""
@@ -198,6 +215,16 @@ class Bench:
                     for trip in decision.trips]))
         timed = self._best(problem, [decision], index)
         return Drafted(place, index, timed, timed.judged.cost.total - before)
+
+    def as_searched(self, draft: "Drafted") -> "Drafted":
+        """Return a route by the times that the search finds for it, where these are better."""
+        route = driven_by_search(self.problem, draft.timed.route)
+        if route is None:
+            return draft
+        judged = judge_route(self.problem, route, f"routes[{draft.index}]", self.setting.past)
+        more = judged.cost.total - draft.timed.judged.cost.total
+        return min(draft, replace(draft, timed=TimedRoute(route, judged), added=draft.added + more),
+                   key=lambda each: each.rank)
 
     def finish(self, draft: "Drafted", problem: Problem | None = None,
                judged: Mapping[int, JudgedRoute] | None = None) -> Trial:

@@ -8,9 +8,9 @@ import math
 import time
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, replace
-from itertools import chain, takewhile
+from itertools import chain, islice, takewhile
 
-from model.counsel.alternatives import best_of, try_places
+from model.counsel.alternatives import best_of, is_here, try_places
 from model.counsel.bench import Bench, Drafted, Trial
 from model.counsel.group_moves import MovedUnit, companions_to, move_all, not_with
 from model.counsel.screening import share_over
@@ -24,6 +24,13 @@ SPARE = 8
 
 ROUTES_SHARE = 0.9
 """Share of the time in which routes are tried, before plans with the best ones are judged."""
+
+OFFERS_SHARE = 0.3
+"""Share of the time in which the search says what it knows, before anything is tried."""
+
+FEW_TRIES = 3
+"""Places that are tried of a vehicle for which the search finds none legal, by truck and so by
+drone: enough to say why not."""
 
 ALONE_SHARE = 0.5
 """Share of the time in which a customer is put alone, before those who go with him are, too."""
@@ -128,8 +135,7 @@ def _vehicle(fit: Fit) -> Vehicle | None:
 def _alone(bench: Bench, count: int, until: float,
            spot: Callable[[Place], tuple[object, ...]]) -> tuple[Fits, list[Vehicle]]:
     """Return the best places with all others staying, and all vehicles that were tried."""
-    by_group, is_complete = try_places(bench, share_over(ROUTES_SHARE, until))
-    drafts = [draft for some in by_group.values() for draft in some]
+    drafts, is_complete = _drafts(bench, count, spot, share_over(ROUTES_SHARE, until))
     places = _best(bench, sorted(drafts, key=lambda draft: draft.rank), count, spot, until)
     chosen = {trial.place.vehicle for trial in places if trial.place is not None}
     vehicles: dict[Vehicle, list[Drafted]] = {}
@@ -142,6 +148,40 @@ def _alone(bench: Bench, count: int, until: float,
     return Fits(tuple([Fit(bench, trial) for trial in places]),
                 tuple(sorted(others, key=lambda fit: fit.rank)),
                 is_complete and time.perf_counter() < until), [*vehicles]
+
+
+def _drafts(bench: Bench, count: int, spot: Callable[[Place], tuple[object, ...]],
+            until: float) -> tuple[list[Drafted], bool]:
+    """Return routes with the customer at the places tried, and whether there was time for all.
+
+    Where the search finds places legal, the cheapest of these; of other vehicles a few more. As
+    many as if the search weren't asked if none of all is legal.
+    """
+    known = bench.offers(share_over(OFFERS_SHARE, until)) or {}
+    offers = {group: [offer for offer in some if not is_here(bench, offer.place)]
+              for group, some in known.items()}
+    cheapest: dict[tuple[object, ...], Place] = {}
+    for offer in sorted(chain.from_iterable(offers.values()), key=lambda offer: offer.cost):
+        cheapest.setdefault(spot(offer.place), offer.place)
+    places = dict.fromkeys([*islice(cheapest.values(), count + SPARE),
+                            *[some[0].place for some in offers.values() if some]])
+    drafts = [bench.draft(place) for place in takewhile(
+        lambda _: time.perf_counter() < until, places)]
+    if len(drafts) < len(places):
+        return drafts, False
+    served = _served(drafts)
+    broken = [index for index, draft in enumerate(drafts) if draft.place.vehicle not in served]
+    for index in takewhile(lambda _: time.perf_counter() < until, broken):
+        drafts[index] = bench.as_searched(drafts[index])
+    served = _served(drafts)
+    others, is_complete = try_places(bench, until, lambda vehicle: vehicle not in served,
+                                     FEW_TRIES if served else None)
+    return [*drafts, *chain.from_iterable(others.values())], is_complete
+
+
+def _served(drafts: Iterable[Drafted]) -> set[Vehicle]:
+    """Return the vehicles that a legal one is of."""
+    return {draft.place.vehicle for draft in drafts if not draft.timed.judged.violations}
 
 
 def new_violations(bench: Bench, trial: Trial) -> list[Violation]:

@@ -155,7 +155,7 @@ def _without(bench: Bench, companions: tuple[MovedUnit, ...]) -> Way:
 
 def _drafts(bench: Bench, vehicle: Vehicle, tries: int, until: float) -> Iterator[Drafted]:
     """Yield routes of a vehicle with a customer or shipment at its likeliest places."""
-    guesses = [guess for some in bench.guesses(until=until, only=vehicle).values()
+    guesses = [guess for some in bench.guesses(until=until, wanted=vehicle.__eq__).values()
                for guess in some]
     for guess in sorted(guesses, key=lambda guess: guess.rank)[:tries]:
         if time.perf_counter() < until:

@@ -6,7 +6,7 @@ A guess that costs little: it decides which places are tried, never what is said
 import math
 import time
 from collections import defaultdict
-from collections.abc import Collection, Iterator, Mapping
+from collections.abc import Callable, Collection, Iterator, Mapping
 from itertools import chain, pairwise, takewhile
 from typing import NamedTuple
 
@@ -20,6 +20,15 @@ from model.solution import Route, Solution, Trip
 
 BY_TRUCK: tuple[Means, ...] = ("truck",)
 ANYHOW: tuple[Means, ...] = ("truck", "drone")
+
+Wanted = Callable[[Vehicle], bool]
+"""Tells whose places are asked for."""
+
+
+def of_any(_: Vehicle) -> bool:
+    """Want the places of any vehicle."""
+    return True
+
 
 SPANS = 4
 """A drone is recovered where it was launched, or at one of so many stops from there on."""
@@ -60,11 +69,11 @@ class _Legs:
 class Screen:
     """Guesses for one customer, in a plan that leaves him out.
 
-    `means` are those by which he may be served, `only` is the vehicle that may; None: any.
+    `means` are those by which he may be served.
     """
 
     def __init__(self, problem: Problem, solution: Solution, node: int, past: Past,
-                 means: Collection[Means] = ANYHOW, only: Vehicle | None = None) -> None:
+                 means: Collection[Means] = ANYHOW, wanted: Wanted = of_any) -> None:
         self._problem = problem
         self._solution = solution
         self._node = node
@@ -72,7 +81,7 @@ class Screen:
         self._past = past
         self._legs: dict[int, _Legs] = {}
         self._means = means
-        self._only = only
+        self._wanted = wanted
 
     def guesses(self, until: float = math.inf) -> dict[tuple[Vehicle, Means], list[Guess]]:
         """Return the places of each vehicle, by truck and by drone, the best ones first.
@@ -85,7 +94,7 @@ class Screen:
         trips = {vehicle: len(route.trips) for vehicle, route in routes.items()}
         on_trips = takewhile(lambda _: time.perf_counter() < until, self._on_trips(routes))
         alone = (self._alone(vehicle, number, is_new=vehicle not in trips)
-                 for vehicle, number in self._own_trips(trips) if self._only in (None, vehicle))
+                 for vehicle, number in self._own_trips(trips) if self._wanted(vehicle))
         for guess in chain.from_iterable(chain(on_trips, alone)):
             found[guess.place.vehicle, guess.place.by].append(guess)
         for (vehicle, _), guesses in found.items():
@@ -98,7 +107,7 @@ class Screen:
     def _on_trips(self, routes: Mapping[Vehicle, Route]) -> Iterator[Iterator[Guess]]:
         """Yield the places on each trip that isn't over."""
         for vehicle, route in routes.items():
-            if self._only not in (None, vehicle):
+            if not self._wanted(vehicle):
                 continue
             known = self._past.trips.get(vehicle, ())
             for number, trip in enumerate(route.trips):

@@ -12,7 +12,8 @@ from itertools import chain, groupby, islice, permutations, product, takewhile
 from math import prod
 
 from model.counsel.screening import (
-    ANYHOW, BY_TRUCK, SPANS, Guess, Screen, first_drones, free_drone, share_over, slacks_of,
+    ANYHOW, BY_TRUCK, SPANS, Guess, Screen, Wanted, first_drones, free_drone, of_any, share_over,
+    slacks_of,
 )
 from model.judge.clock import service_start
 from model.judge.loads import trip_loads
@@ -49,11 +50,11 @@ class ShipmentScreen:
     """Guesses for a shipment, in a plan that leaves it out; as `Screen`."""
 
     def __init__(self, problem: Problem, solution: Solution, shipment: Shipment,
-                 past: Past, only: Vehicle | None = None) -> None:
+                 past: Past, wanted: Wanted = of_any) -> None:
         self._problem = problem
         self._shipment = shipment
         self._past = past
-        self._only = only
+        self._wanted = wanted
         self._trips: dict[Vehicle, tuple[Trip, ...]] = {}
         for route in solution.routes:
             self._trips.setdefault(Vehicle(route.vehicle_type, route.vehicle), route.trips)
@@ -84,7 +85,8 @@ class ShipmentScreen:
         nodes = self._shipment.nodes
         for end, node in enumerate(nodes):
             means = BY_TRUCK if self._problem.customer_at(node).served_by == "truck" else ANYHOW
-            screen = Screen(self._problem, self._solution, node, self._past, means, self._only)
+            screen = Screen(self._problem, self._solution, node, self._past, means,
+                            self._wanted)
             for guess in chain.from_iterable(screen.guesses(until).values()):
                 key = guess.place.vehicle, guess.place.trip, guess.place.own_trip
                 by_trip.setdefault(key, [[] for _ in nodes])[end].append(guess)

@@ -18,7 +18,7 @@ def driven_by_search(problem: Problem, route: Route) -> Route | None:
     served = [*(stop.node for trip in route.trips for stop in trip.customer_stops),
               *(visit.node for trip in route.trips for sortie in trip.sorties
                 for visit in sortie.visits)]
-    instance = pack([problem])
+    instance = pack([problem], False)
     neighbourhood = make_neighbourhood(problem, instance)
     data = make_data(problem, instance, neighbourhood=neighbourhood)
     found = timed(problem, data, neighbourhood.numbering,

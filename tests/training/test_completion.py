@@ -7,7 +7,7 @@ import pytest
 
 from model.judge.check import check
 from model.problem import IntArray, Problem
-from model.simulation.extract import extract
+from model.policy.extract import extract
 from model.simulation.actions import NUM_KINDS, OPEN
 from training.completion import (
     CompletionSetting, can_complete, complete, cost_of, is_cut, open_type, to_actions, to_routes,

@@ -186,7 +186,7 @@ private:
         const Leg out = q == p ? aboard_ : leg_from(delivery_.inward, stops[q].node);
         if (!way.serve(delivery_, out)) return;
         const double cost = way.price(leg_to(delivery_.onward, stops[q + 1].node), stops_cost_);
-        if (cost < infeasible && best.takes(cost)) serve_both(best.move, p, q);
+        if (cost < infeasible) best.try_made(cost, [&](Move& move) { serve_both(move, p, q); });
     }
 
     // Lets a move serve the pickup behind a stop, and the delivery behind it or a later one.

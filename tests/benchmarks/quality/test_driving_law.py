@@ -15,7 +15,7 @@ from model.problem import (
     FULL_SPEED, REST, UNLIMITED, DrivingRules, DroneType, Problem, SpeedProfile, VehicleType,
 )
 from model.search.improve import SearchConfig, improve
-from model.simulation.extract import extract
+from model.policy.extract import extract
 from model.solution import Solution
 from benchmarks.quality.driving_law import Law, offences
 from tests.model.rollouts import roll

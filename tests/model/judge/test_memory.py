@@ -9,7 +9,7 @@ from model.judge import memory
 from model.judge.check import check
 from model.judge.memory import Memory
 from model.engine.instance import pack
-from model.simulation.extract import extract
+from model.policy.extract import extract
 from model.solution import Route
 from tests.model.rollouts import random_problems, roll
 

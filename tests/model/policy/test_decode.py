@@ -21,7 +21,7 @@ from model.policy.decode import (
 from model.policy.network import MASKED
 from model.policy.rolling import CLIP, NOTHING, choose
 from model.problem import Problem
-from model.simulation.extract import extract
+from model.policy.extract import extract
 from training.instances import VARIANTS, generate
 
 WEIGHTS = Path(__file__).parents[3] / "model" / "weights"

@@ -13,7 +13,7 @@ from model.policy import route_pool
 from model.policy.route_pool import RoutePool
 from model.policy.rolling import NOTHING, Rollout
 from model.problem import IntArray, Problem
-from model.simulation.extract import extract
+from model.policy.extract import extract
 from model.simulation.actions import DRIVE, LAUNCH, NUM_KINDS, OPEN
 from tests.model.rollouts import random_problems, roll
 from tests.model.tiny_company import with_relations

@@ -13,7 +13,7 @@ from model.judge.check import check
 from model.judge.timing import RouteDecision, TripDecision, schedule
 from model.problem import Break, Problem, VehicleType
 from model.search.improve import SearchConfig, improve
-from model.simulation.extract import extract
+from model.policy.extract import extract
 from model.solution import Solution
 from tests.model.rollouts import roll
 from tests.model.search.break_days import cheapest as in_every_way

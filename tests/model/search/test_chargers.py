@@ -11,7 +11,7 @@ from model.engine.instance import pack
 from model.judge.check import check
 from model.problem import Problem
 from model.search.improve import SearchConfig, improve
-from model.simulation.extract import extract
+from model.policy.extract import extract
 from model.solution import Solution
 from tests.model.chargers import MINUTE, battery_of, charged_street, order
 from tests.model.fliers import charging, from_few_hubs, from_hubs

@@ -16,7 +16,7 @@ from model.search import improve as searching
 from model.search.improve import Improved, Progress, SearchConfig, improve
 from model.search.route.layout import NOWHERE
 from model.search.worker import SearchThread
-from model.simulation.extract import extract
+from model.policy.extract import extract
 from model.solution import Solution
 from tests.model.rollouts import random_problems, roll
 from tests.model.tiny import draw_tiny

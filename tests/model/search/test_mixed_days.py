@@ -8,7 +8,7 @@ import pytest
 
 from model.engine.instance import pack
 from model.judge.check import check
-from model.simulation.extract import extract
+from model.policy.extract import extract
 from tests.model.rollouts import roll
 from tests.model.search.many_days import Day, day_of, told
 from tests.model.search.mixed_days import mixed_day

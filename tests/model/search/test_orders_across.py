@@ -12,7 +12,7 @@ from model.problem import (
     MM_PER_KM, Customer, Depot, DrivingRules, Problem, Relation, Travel, VehicleType,
 )
 from model.search.improve import SearchConfig, improve
-from model.simulation.extract import extract
+from model.policy.extract import extract
 from model.solution import Solution
 from tests.model.rollouts import roll
 from tests.model.simulation.test_simulator import Change

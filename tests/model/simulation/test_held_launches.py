@@ -14,7 +14,7 @@ from model.judge.timing import RouteDecision, SortieDecision, TripDecision, sche
 from model.problem import Problem, SpeedProfile
 from model.search.improve import SearchConfig, improve
 from model.simulation.actions import DRIVE, LAUNCH, OPEN, RETURN, apply, encode_action, reset
-from model.simulation.extract import extract
+from model.policy.extract import extract
 from model.solution import Solution, Trip
 from tests.model.mask_oracle import legal_codes
 from tests.model.remedies import applied

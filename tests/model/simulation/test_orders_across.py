@@ -11,7 +11,7 @@ from model.judge.company import who_waits
 from model.problem import Problem
 from model.search.regions.region import customers_of
 from model.simulation.actions import NUM_KINDS, OPEN
-from model.simulation.extract import extract
+from model.policy.extract import extract
 from tests.model.mask_oracle import legal_codes
 from tests.model.rollouts import roll
 from tests.model.simulation.test_simulator import Change, Position, walk

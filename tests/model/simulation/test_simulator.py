@@ -14,7 +14,7 @@ from model.simulation.actions import (
     DRIVE, LAUNCH, NUM_KINDS, OPEN, RETURN, apply, encode_action, reset,
 )
 from model.search.regions.region import customers_of
-from model.simulation.extract import extract
+from model.policy.extract import extract
 from model.solution import Route
 from tests.model.mask_oracle import MINUTE, Vehicle, after, judge, legal_codes
 from tests.model.rollouts import choose, legal, random_problems, roll

@@ -11,7 +11,7 @@ from model.judge.timing import RouteDecision, read_decision, schedule
 from model.engine.instance import pack
 from model.problem import Problem
 from model.simulation.actions import DRIVE, LAUNCH, OPEN, RETURN, encode_action
-from model.simulation.extract import extract
+from model.policy.extract import extract
 from model.solution import Route, Solution, Stop, Visit
 from tests.model.mask_oracle import MINUTE, costs_nothing
 from tests.model.rollouts import random_problems, roll

@@ -8,7 +8,7 @@ from model.engine.instance import pack
 from model.simulation.actions import (
     DRIVE, LAUNCH, OPEN, RETURN, apply, encode_action, finish, reset,
 )
-from model.simulation.extract import extract
+from model.policy.extract import extract
 from model.simulation.state import by_term
 
 MINUTE = 60_000
