@@ -6,13 +6,12 @@ cheapest of its kind is true of those tried.
 
 import math
 import time
-from collections.abc import Collection, Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterator, Sequence
 from dataclasses import dataclass, replace
 from typing import Literal
 
 from model.counsel.bench import Bench, Drafted, Trial
 from model.counsel.group_moves import MovedUnit, companions_of, move_all
-from model.counsel.priced import Offer
 from model.counsel.screening import Wanted, of_any, share_over
 from model.judge.clock import window_of
 from model.judge.past import Vehicle
@@ -41,8 +40,6 @@ EVERYWHERE = frozenset({"VEHICLE", "SKILLS", "SERVED_BY"})
 """Rules that whoever breaks them with a vehicle breaks at all its places."""
 
 Group = tuple[Vehicle, Means]
-
-NOTHING: Mapping[Group, Sequence[Offer]] = {}
 
 
 @dataclass(frozen=True)
@@ -83,7 +80,11 @@ def find_alternatives(bench: Bench, until: float = math.inf) -> Findings:
     companions, found = companions_of(bench), bench.found
     alone = share_over(ALONE_SHARE, until) if companions else until
     offers = bench.offers(share_over(SCREENING_SHARE, alone)) or {}
-    by_group, is_complete = try_places(bench, alone, offers=offers)
+    by_group, is_complete = try_places(bench, alone)
+    for group, some in offers.items():
+        best = next((each.place for each in some if not is_here(bench, each.place)), None)
+        if best is not None and time.perf_counter() < alone:
+            by_group.setdefault(group, []).append(bench.draft(best))
     windows, all_windows = _windows(bench, alone)
     alternatives: list[Alternative] = []
     if found is not None:
@@ -124,34 +125,30 @@ def best_of(bench: Bench, kind: Kind, drafts: Sequence[Drafted],
         yield Alternative(kind, min(trials, key=lambda trial: trial.rank))
 
 
-def try_places(bench: Bench, until: float, wanted: Wanted = of_any, most: int | None = None,
-               offers: Mapping[Group, Sequence[Offer]] = NOTHING
+def try_places(bench: Bench, until: float, wanted: Wanted = of_any, most: int | None = None
                ) -> tuple[dict[Group, list[Drafted]], bool]:
     """Try the best places of each vehicle and means, and tell whether there was time for all.
 
-    Of each that is `wanted`, `most` of them, if stated; `offers` first, the cheapest. All have
-    their first turn before any has its second.
+    Of each that is `wanted`, `most` of them, if stated. All have their first turn before any has
+    its second.
     """
     screened = share_over(SCREENING_SHARE, until)
-    guesses = {group: some for group, some in bench.guesses(until=screened, wanted=wanted).items()
+    guesses = {group: [guess for guess in some if not is_here(bench, guess.place)]
+               for group, some in bench.guesses(until=screened, wanted=wanted).items()
                if group[0] != bench.done_by}
     is_complete = time.perf_counter() < screened
-    places = {group: [place for place in dict.fromkeys([
-        *[offer.place for offer in offers.get(group, ())[:TRIES]],
-        *[guess.place for guess in some]]) if not is_here(bench, place)]
-        for group, some in guesses.items()}
-    order = sorted([group for group, some in places.items() if some],
+    order = sorted([group for group, some in guesses.items() if some],
                    key=lambda group: guesses[group][0].rank)
     tried: dict[Group, list[Drafted]] = {}
     enough = max(TRIES, ALL_TRIES // max(1, len(order)))
     most = max(MORE_TRIES, ALL_MORE_TRIES // max(1, len(order))) if most is None else most
     for turn in range(most):
         for group in order:
-            if turn >= len(places[group]) or _is_settled(tried.get(group, ()), turn, enough):
+            if turn >= len(guesses[group]) or _is_settled(tried.get(group, ()), turn, enough):
                 continue
             if time.perf_counter() >= until:
                 return tried, False
-            tried.setdefault(group, []).append(bench.draft(places[group][turn]))
+            tried.setdefault(group, []).append(bench.draft(guesses[group][turn].place))
     return tried, is_complete
 
 

@@ -178,11 +178,13 @@ class Bench:
     def offers(self, until: float = math.inf) -> dict[tuple[Vehicle, Means], list[Offer]] | None:
         """Return the places of vehicles in use that the search finds legal, the cheapest first.
 
-        None where the search isn't asked, as it doesn't know what has happened, and takes long to
-        open where there are many legs; or if that would end after an instant.
+        None where the search isn't asked, as it doesn't know what has happened, prices routes
+        alone where the plan as a whole costs something, and takes long to open where there are
+        many legs; or if that would end after an instant.
         """
         legs = self.problem.num_nodes**2 * len(self.problem.travel)
-        if self.setting.past != EVERYTHING_OPEN or legs > MOST_LEGS:
+        if (self.setting.past != EVERYTHING_OPEN or self.problem.fairness.is_stated
+                or legs > MOST_LEGS):
             return None
         return legal_offers(self.problem, self.left_out.solution, self.nodes, until)
 

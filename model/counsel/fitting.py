@@ -12,6 +12,7 @@ from itertools import chain, islice, takewhile
 
 from model.counsel.alternatives import best_of, is_here, try_places
 from model.counsel.bench import Bench, Drafted, Trial
+from model.counsel.priced import is_seen_by_search
 from model.counsel.group_moves import MovedUnit, companions_to, move_all, not_with
 from model.counsel.screening import share_over
 from model.judge.past import Vehicle
@@ -154,8 +155,9 @@ def _drafts(bench: Bench, count: int, spot: Callable[[Place], tuple[object, ...]
             until: float) -> tuple[list[Drafted], bool]:
     """Return routes with the customer at the places tried, and whether there was time for all.
 
-    Where the search finds places legal, the cheapest of these; of other vehicles a few more. As
-    many as if the search weren't asked if none of all is legal.
+    Where the search finds places legal, the cheapest of these. Of other vehicles a few more if it
+    sees all that the judge sees; if it doesn't, or none of all is legal, as many of all vehicles as
+    if it weren't asked.
     """
     known = bench.offers(share_over(OFFERS_SHARE, until)) or {}
     offers = {group: [offer for offer in some if not is_here(bench, offer.place)]
@@ -173,7 +175,7 @@ def _drafts(bench: Bench, count: int, spot: Callable[[Place], tuple[object, ...]
     broken = [index for index, draft in enumerate(drafts) if draft.place.vehicle not in served]
     for index in takewhile(lambda _: time.perf_counter() < until, broken):
         drafts[index] = bench.as_searched(drafts[index])
-    served = _served(drafts)
+    served = _served(drafts) if is_seen_by_search(bench.problem) else set()
     others, is_complete = try_places(bench, until, lambda vehicle: vehicle not in served,
                                      FEW_TRIES if served else None)
     return [*drafts, *chain.from_iterable(others.values())], is_complete

@@ -57,6 +57,20 @@ def legal_offers(problem: Problem, solution: Solution, nodes: Sequence[int], unt
     return found
 
 
+def is_seen_by_search(problem: Problem) -> bool:
+    """Tell whether the search sees each place that the judge finds legal, and what it costs.
+
+    Of flights, breaks, rests and orders between customers it looks at the likeliest ways, and it
+    knows soft windows by their prices as routes are.
+    """
+    kinds, customers = problem.vehicle_types, problem.customers
+    return not (
+        problem.relations or problem.limits_time_aboard or problem.limits_time_between
+        or any(kind.num_drones or kind.flies or kind.breaks or kind.driving for kind in kinds)
+        or any(each.late_cost_per_hour is not None or each.early_cost_per_hour
+               for each in customers))
+
+
 @dataclass(frozen=True)
 class _Stretch:
     """The trip that placements are on, or one that begins and ends by them."""
