@@ -52,7 +52,7 @@ def test_address_names_an_example(browser: Browser, service: str) -> None:
 
 def test_console_opens_with_an_example_planned(console: Page) -> None:
     expect(console.get_by_text("100 of 100 served")).to_be_visible()
-    expect(console.locator(".map canvas")).to_be_visible()
+    expect(console.locator(".map .leaflet-overlay-pane canvas")).to_be_visible()
     expect(console.locator(".rows canvas")).to_be_visible()
     idle(console)
     assert float(console.locator("#total-cost").inner_text()) < 890
