@@ -18,7 +18,7 @@ from app.requests.conversion.units import thousandths
 from app.schemas.quote import QuoteReply, QuoteRequest, SlotInput
 from app.serving.load.received import ReceivedBody
 from model.counsel.bench import Bench
-from model.counsel.fitting import find_fits, new_violations
+from model.counsel.fitting import find_cheapest, new_violations
 from model.problem import Problem
 from model.problem.quantities import UNLIMITED
 
@@ -53,15 +53,12 @@ def answer_quote(body: ReceivedBody, bounds: Bounds,
 def _quoted(bench: Bench, slot: SlotInput) -> Data:
     """Return what a slot would cost."""
     node = bench.node if bench.shipment is None else bench.shipment.delivery
-    there = Bench(_within(bench.problem, node, slot), bench.plan.solution, bench.node,
-                  bench.setting, bench.judged, bench.shipment)
-    found = find_fits(there, 1).places
+    best = find_cheapest(bench.under(_within(bench.problem, node, slot)))
     reply: Data = {"earliest": slot.earliest, "latest": slot.latest, "by": slot.by,
                    "feasible": False, "cost": None, "of_which_future": None, "vehicle": None,
                    "arrival": None, "why": []}
-    if not found:
+    if best is None:
         return reply
-    best = found[0]
     broken = new_violations(best.bench, best.trial)
     if broken:
         return reply | {"why": rules_reply(broken)}

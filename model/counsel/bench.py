@@ -5,6 +5,7 @@ All others stay where they are, in their order. Each trial is a whole plan that 
 
 import math
 from collections.abc import Collection, Mapping, Sequence
+from copy import copy
 from dataclasses import dataclass, replace
 
 from model.counsel.priced import Offer, legal_offers
@@ -142,6 +143,12 @@ class Bench:
             plan = changed(solution, index, timed.route, unassigned)
             judged = {**judged, index: timed.judged}
         return Trial(None, plan, self.setting.judge(self.problem, plan, judged)), judged
+
+    def under(self, problem: Problem) -> "Bench":
+        """Return what tries the customer, whom the plan leaves out, under other rules of his."""
+        other = copy(self)
+        other.problem = problem
+        return other
 
     def at_place(self, place: int) -> "Bench":
         """Return what tries the customer at another of his places, of the plan without him."""
