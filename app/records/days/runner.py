@@ -4,6 +4,7 @@ import logging
 import threading
 import time
 import uuid
+from collections import Counter
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
@@ -34,6 +35,7 @@ from app.schemas.errors import InvalidRequestError, RequestError
 from app.schemas.plan import PlanInput
 from app.schemas.request import PlanRequest
 from app.schemas.times import read_body
+from app.serving.children.errors import EndedUnexpectedlyError
 from app.serving.settings import Settings
 
 logger = logging.getLogger(__name__)
@@ -46,6 +48,9 @@ AT_ONCE = 2
 
 LEASE, RENEWAL = 4.0, 1.0
 """Seconds for which a day is one process's, which says so anew while it plans: then another's."""
+
+MAX_DEATHS = 3
+"""How often processes may die of one plan before it is given up until something else is told."""
 
 RETRY = 1.0
 """Seconds between two looks while the database can't be reached."""
@@ -84,6 +89,7 @@ class DayRunner:
         self._stopping = threading.Event()
         self._told = threading.Event()
         self._by = str(uuid.uuid4())
+        self._deaths = Counter[tuple[str, int]]()  # by day and number of the last event
         self._free = threading.Semaphore(AT_ONCE)
         self._pool = ThreadPoolExecutor(AT_ONCE, thread_name_prefix="day")
         self._looking = threading.Thread(target=self._look, name="days", daemon=True)
@@ -126,7 +132,7 @@ class DayRunner:
             self._make(day)
         except RequestError as error:
             # What others don't answer now they may later: the day is taken up again.
-            if error.status != HTTPStatus.SERVICE_UNAVAILABLE:
+            if not self._may_do_later(day, error):
                 details = "; ".join(each.message for each in error.errors)
                 self._store.fail(day, self._by, details or str(error))
         except SQLAlchemyError as error:
@@ -137,6 +143,16 @@ class DayRunner:
         finally:
             self._free.release()
             self._told.set()
+
+    def _may_do_later(self, day: DayRow, error: RequestError) -> bool:
+        """Tell whether a day may be planned later that can't be now.
+
+        Not if processes keep dying of it.
+        """
+        if isinstance(error, EndedUnexpectedlyError):
+            self._deaths[day.id, day.asked] += 1
+        return (error.status == HTTPStatus.SERVICE_UNAVAILABLE
+                and self._deaths[day.id, day.asked] < MAX_DEATHS)
 
     def _make(self, day: DayRow) -> None:
         begun = self._store.begun(day.id)

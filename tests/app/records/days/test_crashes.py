@@ -3,6 +3,7 @@
 import random
 import threading
 from pathlib import Path
+from typing import Any
 
 import httpx
 import pytest
@@ -10,9 +11,12 @@ import uvicorn
 
 from app.cli.serving import IDLE_SECONDS
 from app.main import create_app
+from app.serving.children.errors import EndedUnexpectedlyError
 from app.serving.settings import Settings
+from model.planner import PlanResult
+from model.problem import Problem
 from tests.app.records.days.living import begun, clock, order, plan_of, planned, served_by, standing
-from tests.app.conftest import SearchingPlanner
+from tests.app.conftest import SearchingPlanner, ready, serving
 from tests.app.records.jobs.served import Served
 from tests.conftest import eventually
 
@@ -79,3 +83,29 @@ def _tell_until_heard(client: httpx.Client, day: str, name: str, at: float) -> N
     eventually(is_heard)
     eventually(is_heard)
 
+
+
+class DyingPlanner(SearchingPlanner):
+    """Dies of one plan as often as it is told to, and plans others."""
+
+    deaths = 0
+
+    def plan(self, problem: Problem, *args: Any, **options: Any) -> PlanResult:
+        if type(self).deaths > 0:
+            type(self).deaths -= 1
+            raise EndedUnexpectedlyError
+        return super().plan(problem, *args, **options)
+
+
+@pytest.mark.parametrize(("deaths", "fails"), [(2, False), (3, True)])
+def test_day_whose_process_dies_is_planned_again_some_times(
+        tmp_path: Path, monkeypatch: pytest.MonkeyPatch, deaths: int, fails: bool) -> None:
+    monkeypatch.setattr("app.records.days.runner.LEASE", 0.2)
+    with serving(DyingPlanner(), Settings(data_dir=tmp_path, role="api")) as client:
+        day = begun(ready(client))
+        DyingPlanner.deaths = deaths
+        client.post(f"/days/{day}/events", json=[{"event_id": "e", "at": 1, **order("G", 1, 1)}])
+        eventually(lambda: standing(client, day).is_planned)
+        assert (standing(client, day).failure is not None) == fails
+        client.post(f"/days/{day}/events", json=[{"event_id": "f", "at": 2, **clock()}])
+        assert "G" in served_by(plan_of(client, planned(client, day).id))
