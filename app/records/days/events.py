@@ -14,6 +14,8 @@ MAX_REASON = 500
 
 Reason = Annotated[str, Field(max_length=MAX_REASON)]
 
+KIND = "What happened."
+VEHICLE, DRONE = "Its name in the plan, such as `van-1`.", "Its name, such as `van-1/drone-1`."
 UNDONE = "Takes back what was told of the same before."
 
 
@@ -28,7 +30,7 @@ class DayEvent(Input):
 class OrderStated(DayEvent):
     """An order that is new, or another in place of the one of its id."""
 
-    kind: Literal["order.placed", "order.changed"]
+    kind: Literal["order.placed", "order.changed"] = Field(description=KIND)
     customer: CustomerInput | None = Field(None, description="The order, to or from a customer.")
     shipment: ShipmentInput | None = Field(None, description="The order, from place to place.")
 
@@ -51,23 +53,23 @@ class OrderStated(DayEvent):
 class OrderCancelled(DayEvent):
     """An order that isn't wanted any more."""
 
-    kind: Literal["order.cancelled"]
+    kind: Literal["order.cancelled"] = Field(description=KIND)
     order: Name = Field(description="Id of the customer or the shipment.")
 
 
 class VehicleDeparted(DayEvent):
     """A vehicle left a depot, or where it begins."""
 
-    kind: Literal["vehicle.departed"]
-    vehicle: Name
+    kind: Literal["vehicle.departed"] = Field(description=KIND)
+    vehicle: Name = Field(description=VEHICLE)
     undone: bool = Field(False, description=UNDONE)
 
 
 class VehicleArrived(DayEvent):
     """A vehicle is somewhere."""
 
-    kind: Literal["vehicle.arrived"]
-    vehicle: Name
+    kind: Literal["vehicle.arrived"] = Field(description=KIND)
+    vehicle: Name = Field(description=VEHICLE)
     order: Name | None = Field(
         None, description="Whose door it stands at, as the plan's stop is named. Null: its trip "
         "is over.")
@@ -77,8 +79,8 @@ class VehicleArrived(DayEvent):
 class VehicleServed(DayEvent):
     """A vehicle, or a drone of it, served somebody, or could not."""
 
-    kind: Literal["vehicle.served", "vehicle.failed"]
-    vehicle: Name
+    kind: Literal["vehicle.served", "vehicle.failed"] = Field(description=KIND)
+    vehicle: Name = Field(description=VEHICLE)
     order: Name = Field(description="Whom, as the plan's stop is named.")
     reason: Reason | None = Field(None, description="Why not.")
     undone: bool = Field(False, description=UNDONE)
@@ -87,33 +89,33 @@ class VehicleServed(DayEvent):
 class VehicleBroken(DayEvent):
     """A vehicle has broken down; `undone`: it goes on."""
 
-    kind: Literal["vehicle.broken"]
-    vehicle: Name
-    reason: Reason | None = None
+    kind: Literal["vehicle.broken"] = Field(description=KIND)
+    vehicle: Name = Field(description=VEHICLE)
+    reason: Reason | None = Field(None, description="Why.")
     undone: bool = Field(False, description=UNDONE)
 
 
 class VehicleDelayed(DayEvent):
     """A vehicle will be later at its next stop than planned."""
 
-    kind: Literal["vehicle.delayed"]
-    vehicle: Name
+    kind: Literal["vehicle.delayed"] = Field(description=KIND)
+    vehicle: Name = Field(description=VEHICLE)
     by: Duration = Field(description="How many seconds.")
 
 
 class VehiclePosition(DayEvent):
     """Where a vehicle is."""
 
-    kind: Literal["vehicle.position"]
-    vehicle: Name
+    kind: Literal["vehicle.position"] = Field(description=KIND)
+    vehicle: Name = Field(description=VEHICLE)
     location: Location = Field(description="As locations of the day's problem are.")
 
 
 class DroneFlown(DayEvent):
     """A drone took off from its vehicle, or is back on it."""
 
-    kind: Literal["drone.launched", "drone.recovered"]
-    drone: Name
+    kind: Literal["drone.launched", "drone.recovered"] = Field(description=KIND)
+    drone: Name = Field(description=DRONE)
     order: Name | None = Field(None, description="One of those it flies to. Null: its next flight.")
     undone: bool = Field(False, description=UNDONE)
 
@@ -121,15 +123,15 @@ class DroneFlown(DayEvent):
 class DroneLost(DayEvent):
     """A drone flies no more; of the flight it is on, nobody was served."""
 
-    kind: Literal["drone.lost"]
-    drone: Name
-    reason: Reason | None = None
+    kind: Literal["drone.lost"] = Field(description=KIND)
+    drone: Name = Field(description=DRONE)
+    reason: Reason | None = Field(None, description="Why.")
 
 
 class Clock(DayEvent):
     """What time it is, where a day goes by the times it is told."""
 
-    kind: Literal["clock"]
+    kind: Literal["clock"] = Field(description=KIND)
 
 
 AnyEvent = Annotated[

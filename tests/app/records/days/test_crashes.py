@@ -68,6 +68,7 @@ def test_killed_service_loses_no_event_and_counts_none_twice(
     assert plan_of(served.client, day) == before
     assert standing(served.client, day).revision == found.revision
     served.terminate()
+    served.client.close()
 
 
 def _tell_until_heard(client: httpx.Client, day: str, name: str, at: float) -> None:

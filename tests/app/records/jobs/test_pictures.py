@@ -23,7 +23,7 @@ def test_plan_of_a_job_is_drawn(jobs: httpx.Client) -> None:
     root = ElementTree.fromstring(reply.content)
     assert root.tag == "{http://www.w3.org/2000/svg}svg"
     texts = {"".join(node.itertext()) for node in root.iter("{http://www.w3.org/2000/svg}text")}
-    assert {"hub", "truck-1", *(f"c{number}" for number in range(1, NUM_CUSTOMERS + 1))} <= texts
+    assert {"hub", "truck", *(f"c{number}" for number in range(1, NUM_CUSTOMERS + 1))} <= texts
 
 
 def test_plan_so_far_of_a_running_job_is_drawn(jobs: httpx.Client) -> None:
