@@ -5,8 +5,10 @@ nothing was told isn't served yet, though one behind was. If the trip has no dro
 hang together, the driver goes in another order.
 """
 
+import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from typing import Any
 
 from app.records.dispatches.schemas import StepKind
 from app.records.dispatches.standing import Standing
@@ -34,14 +36,32 @@ def retime(route: RouteInput, standing: Standing, durations: Durations, now: flo
 
     A vehicle that has broken down serves nobody of whom it didn't tell.
     """
-    begun = [TripTold(index, trip, standing).is_begun for index, trip in enumerate(route.trips)]
-    trips, late = list[Retimed](), 0.0
+    begun = [TripTold(index, trip, standing).begun_at for index, trip in enumerate(route.trips)]
+    trips, late, end = list[Retimed](), 0.0, 0.0
     for index, trip in enumerate(route.trips):
-        told = TripTold(index, trip, standing, is_over=any(begun[index + 1:]))
+        later = [time for time in begun[index + 1:] if time is not None]
+        told = TripTold(index, trip, standing, is_over=bool(later))
         retimed = _Retiming(told, durations, now, late, is_broken).trip()
-        trips.append(retimed)
-        late = max(0.0, retimed.trip.stops[-1].departure - trip.stops[-1].departure)
+        # A trip was over when the next began, whatever was told of it.
+        between = _between(retimed.trip, end, min(later, default=math.inf))
+        trips.append(Retimed(between, retimed.is_over))
+        end = between.stops[-1].departure
+        late = max(0.0, end - trip.stops[-1].departure)
     return trips
+
+
+def _between(trip: TripInput, earliest: float, latest: float) -> TripInput:
+    """Return a trip all of whose times lie between two."""
+    def moved(entry: Any, *names: str) -> Any:
+        times = {name: min(max(getattr(entry, name), earliest), latest) for name in names}
+        return entry.model_copy(update=times)
+
+    at_place = "arrival", "service_start", "departure"
+    return trip.model_copy(update={
+        "stops": tuple([moved(stop, *at_place) for stop in trip.stops]),
+        "sorties": tuple([moved(sortie, "launch_time", "recovery_time").model_copy(update={
+            "customers": tuple([moved(visit, *at_place) for visit in sortie.customers])})
+            for sortie in trip.sorties])})
 
 
 class TripTold:
@@ -62,6 +82,7 @@ class TripTold:
         self._is_complete = [len(times) == len(steps)
                              for times, steps in zip(self._times, ids, strict=True)]
         self.is_begun = any(self._times)
+        self.begun_at = min((time for times in self._times for time in times), default=None)
         self.order = self._order()
         last = max((place for place, number in enumerate(self.order) if self._times[number]),
                    default=-1)

@@ -126,6 +126,23 @@ def test_vehicle_that_breaks_down_has_done_what_it_told(service: httpx.Client) -
     assert served_by(plan_of(service, day))["G"] != vehicle
 
 
+def test_what_contradicts_itself_is_planned_on_from(service: httpx.Client) -> None:
+    day = begun(service, {**PROBLEM, "fleet": [{**PROBLEM["fleet"][0], "count": 1,
+                                                "max_trips": 3}]})
+    trips = plan_of(service, day)["routes"][0]["trips"]
+    first, second = (trip["stops"][1]["id"] for trip in trips[:2])
+    # The second trip began before the first was over.
+    told(service, day, clock(), {"kind": "vehicle.departed", "vehicle": "van-1", "at": 150},
+         {"kind": "vehicle.departed", "vehicle": "van-1", "at": 400},
+         {"kind": "vehicle.served", "vehicle": "van-1", "order": first, "at": 900},
+         {"kind": "vehicle.served", "vehicle": "van-1", "order": second, "at": 700},
+         {"kind": "vehicle.arrived", "vehicle": "van-1", "at": 600}, at=1000)
+    found = {each.id: each.state for each in standing(service, day).orders}
+    assert found[first] == found[second] == "served"
+    told(service, day, order("G", 1, 1), at=1001)
+    assert "G" in served_by(plan_of(service, day))
+
+
 def test_what_was_told_late_is_put_where_it_belongs(service: httpx.Client) -> None:
     day = begun(service)
     told(service, day, clock(), order("G", 1, 1), at=50)
