@@ -55,20 +55,8 @@ class OrderAsked(Input):
         return self
 
 
-class QuoteRequest(CheckRequest):
+class QuoteRequest(OrderAsked, CheckRequest):
     """A problem, its plan, and an order that isn't accepted yet."""
-
-    order: CustomerInput | None = Field(
-        None, description="A customer whom the problem doesn't have; windows are the slots'.")
-    shipment: ShipmentInput | None = Field(
-        None, description="A shipment instead; slots are of its delivery.")
-    slots: Slots = Field(description="Of which each is priced.")
-
-    @model_validator(mode="after")
-    def _is_one(self) -> Self:
-        """Refuse what is no order, or two."""
-        require_one(self.order, self.shipment)
-        return self
 
     @property
     def asked(self) -> FitRequest:

@@ -3,10 +3,10 @@
 from typing import Annotated, Literal, Self
 
 from pydantic import Discriminator, Field, RootModel, model_validator
-from pydantic_core import PydanticCustomError
 
 from app.schemas.customer import CustomerInput
 from app.schemas.fields import Duration, Input, Instant, Location, Name
+from app.schemas.quote import require_one
 from app.schemas.shipment import ShipmentInput
 
 MAX_EVENTS_AT_ONCE = 1_000
@@ -37,9 +37,7 @@ class OrderStated(DayEvent):
     @model_validator(mode="after")
     def _is_one(self) -> Self:
         """Refuse what is no order, or two."""
-        if (self.customer is None) == (self.shipment is None):
-            raise PydanticCustomError(
-                "MISSING_FIELD", "An order is a customer or a shipment: state one of them.")
+        require_one(self.customer, self.shipment)
         return self
 
     @property

@@ -2,13 +2,12 @@
 
 import re
 from collections.abc import Collection, Mapping, Sequence
-from dataclasses import dataclass, field
 from typing import Any
 
 from app.records.days.fold import Data, ToldDay
 from app.records.days.rows import Begun
 from app.records.dispatches.going_on import OnTheRoad, going_on
-from app.records.dispatches.schemas import GoingOnReply, StepReply
+from app.records.dispatches.schemas import StepReply
 from app.records.dispatches.steps import stop_ids
 from app.schemas.errors import InputError
 from app.schemas.plan import PlanInput, RouteInput, StopInput
@@ -22,18 +21,9 @@ NOBODY = PlanInput(routes=())
 _STEP = re.compile(r"\.(\w+)|\[(\d+)\]")
 
 
-@dataclass(frozen=True)
-class DayAsked:
-    """What is asked for a day's next plan."""
-
-    request: Data
-    going: GoingOnReply | None = None
-    kept: Sequence[str] = field(default_factory=tuple)  # cancelled, or served by others: too late
-
-
 def asked(begun: Begun, told: ToldDay, plan: PlanInput | None,
           steps: Mapping[str, Sequence[StepReply]], now: float, seen: int,
-          kept: Collection[str] = ()) -> DayAsked:
+          kept: Collection[str] = ()) -> Data:
     """Return the request of `POST /plan` that goes on from a day's plan.
 
     Parameters
@@ -61,7 +51,6 @@ def asked(begun: Begun, told: ToldDay, plan: PlanInput | None,
     failed: dict[str, float] = {}
     if plan is None:
         replan: Data = {"plan": {"routes": []}, "freeze_before": now}
-        going = None
     else:
         late = delayed(plan, told, steps, seen)
         vehicles = {route.vehicle: OnTheRoad(steps.get(route.vehicle, ()),
@@ -79,7 +68,7 @@ def asked(begun: Begun, told: ToldDay, plan: PlanInput | None,
                   if order not in told.elsewhere or order in kept}
         request[name] = [_released(each, failed.get(order))
                          for order, each in {**wanted, **back}.items()]
-    return DayAsked(request, going, tuple(kept))
+    return request
 
 
 def _released(order: Data, at: float | None) -> Data:

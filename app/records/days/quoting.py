@@ -44,8 +44,8 @@ def body_of(days: DayStore, dispatches: DispatchStore, row: DayRow, body: bytes)
     if content is None:
         raise NoDayPlanError
     told = fold(begun, days.log(row.id), row.plan_start)
-    wanted = asked(begun, told, parse_plan(to_json(content)), dispatches.steps_by_vehicle(row.id),
-                   max(0.0, row.seconds(now_of(told))), row.planned).request
+    wanted = asked(begun, told, parse_plan(content), dispatches.steps_by_vehicle(row.id),
+                   max(0.0, row.seconds(now_of(told))), row.planned)
     return to_json({**dict(read_json(body)), "problem": wanted, "plan": wanted["replan"]["plan"]})
 
 

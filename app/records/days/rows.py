@@ -6,22 +6,14 @@ from typing import Any
 
 from pydantic_core import from_json
 
+from app.records.dispatches.rows import DispatchRow
 from app.records.dispatches.schemas import EventKind
 
 
 @dataclass(frozen=True)
-class DayRow:
+class DayRow(DispatchRow):
     """A day without what it began with, its plan and its events."""
 
-    id: str
-    owner: str
-    client: str
-    created_at: int
-    plan_start: int
-    ends_at: int
-    expires_at: int
-    zone_offset: int  # minutes
-    time_zone: str | None
     name: str | None = None
     revision: int = 0
     asked: int = 0

@@ -10,7 +10,6 @@ from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
 from datetime import UTC, datetime
 from http import HTTPStatus
-from typing import Any
 
 from pydantic_core import from_json, to_json
 from sqlalchemy import Engine
@@ -21,11 +20,11 @@ from app.plans.flights.answering import flights_by_vehicle
 from app.records.clock import now_ms
 from app.records.days.fold import ToldDay, fold
 from app.records.days.news import news_of
-from app.records.days.planning import DayAsked, asked, too_late
+from app.records.days.planning import asked, too_late
 from app.records.days.rows import Begun, DayRow
 from app.records.days.store import DayStore
 from app.records.dispatches.instants import PlanStart, instant, milliseconds
-from app.records.dispatches.service import work_by
+from app.records.dispatches.service import HOUR_MS, work_by
 from app.records.dispatches.store import DispatchStore
 from app.records.dispatches.validation import require_drivable
 from app.requests.conversion.locating import at_addresses
@@ -54,8 +53,6 @@ MAX_DEATHS = 3
 
 RETRY = 1.0
 """Seconds between two looks while the database can't be reached."""
-
-HOUR_MS = 3_600_000
 
 Plan = Callable[[bytes, Callable[[], bool]], bytes]
 """Answers a request of `POST /plan`, unless it is told to stop."""
@@ -159,34 +156,34 @@ class DayRunner:
         log = [event for event in self._store.log(day.id) if event.number <= day.revision]
         told = fold(begun, log, day.plan_start)
         content = self._store.plan(day.id)
-        before = None if content is None else parse_plan(to_json(content))
+        before = None if content is None else parse_plan(content)
         now = max(0.0, day.seconds(now_of(told)))
         wanted, reply = self._replied(day, begun, told, before, now)
         if self._stopping.is_set():
             return
-        plan = parse_plan(to_json(reply))
-        problem = read_body(PlanRequest, to_json(wanted.request))
+        plan = parse_plan(reply)
+        problem = read_body(PlanRequest, wanted)
         request = PlannedProblem.model_construct(problem=at_addresses(problem, plan), plan=plan)
         require_drivable(request.problem, plan)
         work, _ = work_by(request, self._dispatches.links(day.id), day.id,
                           flights_by_vehicle(request.problem, plan, self._roads,
                                              instant(day.plan_start)))
         rows = news_of(day.plan_number + 1, day.asked, round(day.plan_start + 1000 * now), told,
-                       before, plan, reply, problem, begun.terms.eta_threshold)
+                       before, plan, from_json(reply), problem, begun.terms.eta_threshold)
         self._store.publish(self._with_end(day, plan), self._by, reply, work, rows)
 
     def _replied(self, day: DayRow, begun: Begun, told: ToldDay, before: PlanInput | None,
-                 now: float) -> tuple[DayAsked, dict[str, Any]]:
+                 now: float) -> tuple[bytes, bytes]:
         """Return what is asked for a day's next plan, and the reply."""
         steps = self._dispatches.steps_by_vehicle(day.id)
         kept: set[str] = set()
         while True:
             wanted = asked(begun, told, before, steps, now, day.planned, kept)
+            body = to_json(wanted)
             try:
-                reply = self._plan(to_json(wanted.request), self._renewing(day))
-                return wanted, dict(from_json(reply))
+                return body, self._plan(body, self._renewing(day))
             except InvalidRequestError as error:
-                more = too_late(error.errors, wanted.request, told) - kept
+                more = too_late(error.errors, wanted, told) - kept
                 if not more:
                     raise
                 kept |= more

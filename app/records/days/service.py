@@ -30,6 +30,7 @@ from app.records.days.store import BY_CLIENT, DayStore
 from app.records.days.telling import Steps
 from app.records.dispatches.errors import TooManyDispatchesError
 from app.records.dispatches.instants import PlanStart, instant, milliseconds
+from app.records.dispatches.service import HOUR_MS
 from app.records.dispatches.store import DispatchStore
 from app.requests.bounds import Bounds
 from app.requests.plan_reading import parse_plan
@@ -44,8 +45,6 @@ from app.serving.settings import Settings
 
 MAX_EVENTS = 100_000
 """Most events of a day."""
-
-HOUR_MS = 3_600_000
 
 _KIND = re.compile(r"(\$\[\d+\])(?:\['[a-z]+\.[a-z_]+'\]|\.clock(?=$|\.))")
 """What errors have of an event's kind in their paths, which isn't in the body."""
@@ -128,7 +127,7 @@ class DayService:
                if event.event_id not in there]
         self._require_known(begun.problem, told, new, raw)
         content = self._store.plan(row.id)
-        steps = Steps(None if content is None else parse_plan(to_json(content)),
+        steps = Steps(None if content is None else parse_plan(content),
                       dict(told.standings))
         rows = [steps.row(event, round(row.plan_start + 1000 * event.at), raw[number])
                 for number, event in sorted(new, key=lambda each: each[1].at)]
@@ -171,9 +170,10 @@ class DayService:
             If there is no such day, or it has no plan yet.
         """
         row = self.find(name, owner)
-        plan = self._store.plan(row.id)
-        if plan is None:
+        content = self._store.plan(row.id)
+        if content is None:
             raise NoDayPlanError
+        plan = dict(from_json(content))
         stated = self._store.begun(row.id).problem
         telling = Telling.of(read_body(PlanRequest, to_json({**stated, "customers": [],
                                                              "shipments": [], "relations": []})))
@@ -186,7 +186,7 @@ class DayService:
         row = self.find(name, owner)
         told = fold(self._store.begun(row.id), self._store.log(row.id), row.plan_start)
         content = self._store.plan(row.id)
-        plan = PlanInput(routes=()) if content is None else parse_plan(to_json(content))
+        plan = PlanInput(routes=()) if content is None else parse_plan(content)
         return DayReply(
             id=row.told_name, dispatch=row.id, time_zone=row.time_zone,
             plan_start=instant(row.plan_start, row.zone_offset), ends_at=instant(row.ends_at),

@@ -1,9 +1,8 @@
 """Days in the database."""
 
 import zlib
-from collections.abc import Callable, Collection, Mapping, Sequence
+from collections.abc import Callable, Collection, Sequence
 from dataclasses import asdict, fields, replace
-from typing import Any
 
 from pydantic_core import from_json, to_json
 from sqlalchemy import ColumnElement, Connection, Engine, func, insert, select, text, update
@@ -14,7 +13,7 @@ from app.records.days.errors import DayTakenError
 from app.records.days.rows import Begun, DayRow, DayTerms, LoggedEvent
 from app.records.dispatches.rows import ToldRow
 from app.records.dispatches.store import (
-    FAST, VehicleWork, add_events, put_work, revision_of,
+    FAST, VehicleWork, add_events, log_events, put_work, revision_of,
 )
 
 BY_SERVICE, BY_CLIENT = "service", ""
@@ -68,11 +67,11 @@ class DayStore:
         with self._engine.connect() as connection:
             return _begun(connection, day)
 
-    def plan(self, day: str) -> dict[str, Any] | None:
-        """Return a day's plan, times in seconds; None: there is none yet."""
+    def plan(self, day: str) -> bytes | None:
+        """Return a day's plan as JSON, times in seconds; None: there is none yet."""
         with self._engine.connect() as connection:
             content = connection.scalar(select(DAYS.c.plan).where(DAYS.c.id == day))
-        return dict(from_json(zlib.decompress(content))) if content else None
+        return zlib.decompress(content) if content else None
 
     def log(self, day: str, after: int = 0) -> list[LoggedEvent]:
         """Return a day's events behind the one of a number."""
@@ -126,7 +125,7 @@ class DayStore:
             connection.execute(update(DAYS).where(DAYS.c.id == day, DAYS.c.lease_by == by).values(
                 lease_until=now_ms() + round(seconds * 1000)))
 
-    def publish(self, day: DayRow, by: str, reply: Mapping[str, Any], work: VehicleWork,
+    def publish(self, day: DayRow, by: str, reply: bytes, work: VehicleWork,
                 told: Sequence[ToldRow]) -> bool:
         """Put a plan in place of the one before, with what follows from it. In place.
 
@@ -134,14 +133,12 @@ class DayStore:
         -------
         Whether it counts: not if another has taken the day meanwhile.
         """
-        content = zlib.compress(to_json(reply), FAST)
+        content = zlib.compress(reply, FAST)
         with self._engine.begin() as connection:
             revision = _held(connection, day.id, by)
             if revision is None:
                 return False
-            connection.execute(insert(EVENTS), [
-                {**asdict(event), "day": day.id, "origin": BY_SERVICE, "number": number,
-                 "received_at": now_ms()} for number, event in enumerate(told, revision + 1)])
+            log_events(connection, day.id, revision, BY_SERVICE, told)
             put_work(connection, day.id, work)
             connection.execute(update(DAYS).where(DAYS.c.id == day.id).values(
                 plan=content, planned=day.asked, plan_number=DAYS.c.plan_number + 1,

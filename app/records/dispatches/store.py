@@ -203,17 +203,22 @@ def revision_of(connection: Connection, day: ColumnElement[bool]) -> int | None:
         update(DAYS).where(day).values(revision=DAYS.c.revision).returning(DAYS.c.revision))
 
 
-def add_events(connection: Connection, day: str, revision: int, origin: str,
-               events: Sequence[ToldRow]) -> int:
-    """Keep events that follow the last of a day, and return the number of the last. In place."""
+def log_events(connection: Connection, day: str, revision: int, origin: str,
+               events: Sequence[ToldRow]) -> None:
+    """Write events behind the last of a day, whose revision is then to be raised. In place."""
     received_at = now_ms()
     connection.execute(insert(EVENTS), [
         {**asdict(event), "day": day, "origin": origin, "number": number,
          "received_at": received_at} for number, event in enumerate(events, revision + 1)])
+
+
+def add_events(connection: Connection, day: str, revision: int, origin: str,
+               events: Sequence[ToldRow]) -> None:
+    """Keep events that follow the last of a day, and are to be planned for. In place."""
+    log_events(connection, day, revision, origin, events)
     last = revision + len(events)
     connection.execute(update(DAYS).where(DAYS.c.id == day).values(
         revision=last, asked=case((DAYS.c.request.is_not(None), last), else_=0)))
-    return last
 
 
 def put_work(connection: Connection, dispatch: str, work: VehicleWork) -> None:
