@@ -15,6 +15,7 @@ from app.plans.changes import Changing, Stated
 from app.plans.closures import Closures
 from app.plans.far_plans import FarPlans
 from app.plans.geometry import Geometry
+from app.plans.lateness import LatenessRisk
 from app.plans.permits import Permits
 from app.plans.remedies import remedy_reply
 from app.plans.replan_replies import on_the_wire, replan_reply
@@ -85,6 +86,7 @@ class Task:
     rules: list[Data] = field(default_factory=list)  # that drones name
     laws: list[Data] = field(default_factory=list)  # that drivers keep
     doubtful: Sequence[str] = ()  # customers of whom nobody told whether they were served
+    risk: LatenessRisk | None = None
 
     def plan(self, planner: Planner, options: PlanOptions, received_at: float | None = None,
              listener: Listener = ALONE, start: Solution | None = None) -> PlanResult:
@@ -182,6 +184,7 @@ class Task:
         reply = plan_reply(self.problem, options, result, self.reasons, until, self.remedy)
         for left in reply["unassigned"]:
             self.name_hindrances(names_left_out(left), left["reasons"])
+        self.tell_lateness(result.solution, reply["routes"], reply)
         reply["legs"] = [asdict(origin) for origin in self.legs]
         reply["warnings"] = warning_replies(self.warnings)
         if self.closures is not None and self.closures.buffer:
@@ -221,6 +224,14 @@ class Task:
                        LEAST_GEOMETRY)
         return routes
 
+    def tell_lateness(self, solution: Solution, routes: Sequence[Data | None],
+                      reply: Data) -> None:
+        """Put chances of being late into routes' replies and the whole, if asked for. In place."""
+        if self.risk is not None:
+            hours = self.risk.tell(self.judged_problem, solution.routes, routes,
+                                   self.setting.past.now)
+            self.risk.add(reply, hours)
+
     def _complete(self, reply: Data, seconds: float) -> None:
         """Add what the request says of customers, and within some time lines. In place."""
         carry(self.info, reply)
@@ -255,12 +266,13 @@ def task_of(request: PlanRequest, preparing: Preparing = UNHURRIED,
     warnings = (*warnings_of(request, roads.profiles), *address_warnings(places.found))
     beside = (info_of(request), legs, geometry, warnings, Telling.of(request))
     replan, permits, closures = request.replan, Permits.of(request), Closures(placed, ground)
+    risk = LatenessRisk.of(request.options.lateness_risk)
     rules, laws, storms = rules_named(request), laws_named(request), Storms.of(request)
     if replan is None:
         estimates = travels.estimates()
         far = None if estimates is None else FarPlans(problem, estimates)
         return Task(problem, None, *beside, far, places, permits, closures, storms, rules,
-                    laws)
+                    laws, risk=risk)
     replan, places_stated = with_what_is_there(replan, request.fleet)
     terms = _terms(replan, problem)
     going_on = replace(preparing, work="Legs and the plan to go on from",
@@ -269,7 +281,7 @@ def task_of(request: PlanRequest, preparing: Preparing = UNHURRIED,
     try:
         return Task(problem, Replanning(problem, terms), *beside, places=places, permits=permits,
                     closures=closures, storms=storms, rules=rules, laws=laws,
-                    doubtful=replan.doubtful)
+                    doubtful=replan.doubtful, risk=risk)
     except SettledPartError as error:
         raise InvalidRequestError([
             InputError(code="SETTLED_PART",

@@ -91,5 +91,5 @@ def _tell(parts: _Parts, reply: Data, tell: Tell, words: Words) -> None:
     for name, kind in parts.inner:
         value = reply.get(name)
         for entry in value if isinstance(value, list) else [value]:
-            if entry is not None:
+            if isinstance(entry, dict):
                 _tell(_parts(kind), entry, tell, words)

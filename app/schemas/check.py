@@ -2,6 +2,7 @@
 
 from pydantic import BaseModel, ConfigDict, Field
 
+from app.schemas.lateness import RISK_TEXT, LatenessRiskReply
 from app.schemas.plan import PlanInput
 from app.schemas.replanned import ViolationReply
 from app.schemas.request import PlanRequest
@@ -51,5 +52,8 @@ class CheckReply(BaseModel):
     summary: SummaryReply = Field(description="The plan in numbers, computed anew.")
     routes: list[RouteReply | None] | None = Field(
         None, description="The plan's routes, computed anew, in its order; null for one that can't "
-        "be read. Left out unless the plan leaves out times.")
+        "be read. Left out unless the plan leaves out times, or `options.lateness_risk` asks for "
+        "it.")
+    lateness: LatenessRiskReply | None = Field(
+        None, description=f"What is to be expected of promises. {RISK_TEXT}")
     warnings: list[WarningReply] = Field([], description=WARNINGS_TEXT)

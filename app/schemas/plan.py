@@ -65,7 +65,7 @@ class VisitInput(_Plan):
     service_start: Instant = Field(description="Start of service.")
     departure: Instant = Field(description="Departure of the drone.")
     setup: Number = None
-    lateness: Number = None
+    lateness: float | Details = Field(None, description=NOT_READ)
     load: Loads = None
     energy_left_wh: Number = None
     geometry: Line = None
@@ -109,7 +109,7 @@ class StopInput(_Plan):
     departure: Instant = Field(description="Departure; at the trip's last stop, its end.")
     setup: Number = None
     waiting: Number = None
-    lateness: Number = None
+    lateness: float | Details = Field(None, description=NOT_READ)
     load: Loads = None
     energy_left_wh: Number = None
     geometry: Line = None
@@ -232,6 +232,7 @@ class PlanInput(_Plan):
     solver: Details = None
     energy_models: list[dict[str, Any]] | None = Field(None, description=NOT_READ)
     hubs: list[dict[str, Any]] | None = Field(None, description=NOT_READ)
+    lateness: Details = None
     airspace: Details = None
     rules: list[dict[str, Any]] | None = Field(None, description=NOT_READ)
     driving_rules: list[dict[str, Any]] | None = Field(None, description=NOT_READ)

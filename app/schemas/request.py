@@ -17,6 +17,7 @@ from app.schemas.fields import (
     LAUNCH_TEXT, LOCATION_INDEX_TEXT, LOCATION_TEXT, MAX_DEPOTS, MAX_LAUNCH_SITES, Approach, Count,
     Input, Instant, LocationIndex, Money, Name, PlaceLocation, Rounding, Table,
 )
+from app.schemas.lateness import LatenessRiskInput
 from app.schemas.launch_site import HoursInput, LaunchSiteInput
 from app.schemas.limits import (
     DEFAULT_POLICY, MAX_CUSTOMERS, MAX_NUM_SAMPLES, MAX_THREADS, MAX_TIME_LIMIT, MAX_VEHICLES,
@@ -173,6 +174,9 @@ class OptionsInput(Input):
         description="Whether the reply has the line of each leg and flight, `geometry`, for maps "
         "to draw.",
     )
+    lateness_risk: LatenessRiskInput | None = Field(
+        None, description="How times spread around the planned ones: stops then tell their chance "
+        "of being late. Null: everything lasts as long as planned.")
 
 
 class LoadDimensionInput(Input):

@@ -10,6 +10,9 @@ from pydantic import BaseModel, ConfigDict, Field
 
 from app.schemas.hindrances import AirspaceReply
 from app.schemas.hub import ChargingReply, HubReply
+from app.schemas.lateness import (
+    LATENESS_TEXT, RISK_TEXT, LatenessReply, LatenessRiskReply,
+)
 from app.schemas.legs import LegsReply
 from app.schemas.named_models import DrivingLawReply, EnergyModelReply, PublishedRuleReply
 from app.schemas.plan import (
@@ -41,6 +44,8 @@ class CostReply(_Reply):
     )
     lateness: float = Field(description="Late arrivals.")
     earliness: float = Field(description="Waiting for windows to open.")
+    lateness_risk: float | None = Field(
+        None, description=f"Late arrivals to be expected beside the planned ones. {RISK_TEXT}")
     makespan: float = Field(description="The latest end, where that costs.")
     balance: float = Field(description="Unequal work of vehicles, where that costs.")
     too_few_vehicles: float = Field(
@@ -64,9 +69,7 @@ class StopReply(_Reply):
     )
     setup: float = Field(0.0, description="Setup from the arrival on in seconds, if any.")
     waiting: float = Field(description="Wait for the time window to open in seconds.")
-    lateness: float = Field(
-        description="Arrival, setup included, after the time window's end in seconds."
-    )
+    lateness: float | LatenessReply = Field(description=LATENESS_TEXT)
     load: list[float] = Field(
         description="Load when the truck leaves, or ends its trip, per dimension."
     )
@@ -94,9 +97,7 @@ class VisitReply(_Reply):
     service_start: InstantReply = Field(description="Start of service.")
     departure: InstantReply = Field(description="Departure of the drone.")
     setup: float = Field(0.0, description="Setup from the arrival on in seconds, if any.")
-    lateness: float = Field(
-        description="Arrival, setup included, after the time window's end in seconds."
-    )
+    lateness: float | LatenessReply = Field(description=LATENESS_TEXT)
     load: list[float] = Field(description="What the drone carries when it leaves, per dimension.")
     energy_left_wh: float | None = Field(
         None,
@@ -324,6 +325,8 @@ class PlanReply(_Reply):
     )
     summary: SummaryReply = Field(description="The plan in numbers.")
     solver: SolverReply = Field(description="How the plan was made.")
+    lateness: LatenessRiskReply | None = Field(
+        None, description=f"What is to be expected of promises. {RISK_TEXT}")
     legs: list[LegsReply] = Field(
         [], description="What the legs are made of, an entry for each profile used."
     )
