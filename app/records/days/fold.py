@@ -2,7 +2,7 @@
 
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
-from typing import Any
+from typing import Any, NamedTuple
 
 from app.records.days.rows import Begun, LoggedEvent
 from app.records.dispatches.going_on import GROUNDING
@@ -22,6 +22,16 @@ CLIENTS = frozenset({
 KINDS = (*sorted(CLIENTS), "day.begun", "plan.changed", "eta.changed", "order.at_risk")
 
 
+class Pace(NamedTuple):
+    """How far off ways and services were, of which vehicles told."""
+
+    ways: int = 0
+    squares: float = 0.0  # of how often they were off by the usual spread
+
+
+NO_PACE = Pace()
+
+
 @dataclass
 class ToldDay:
     """What was told of a day so far."""
@@ -33,11 +43,13 @@ class ToldDay:
     elsewhere: dict[str, str] = field(default_factory=dict)  # orders served by another than planned
     lost: set[str] = field(default_factory=set)  # drones
     delays: list[LoggedEvent] = field(default_factory=list)
-    positions: dict[str, tuple[float, float]] = field(default_factory=dict)
+    sighted: dict[str, LoggedEvent] = field(default_factory=dict)  # last, by vehicle
     told_at: dict[str, int] = field(default_factory=dict)  # by vehicle, milliseconds since 1970
     clock: int | None = None  # the latest time, of a day that goes by what it is told
     etas: dict[str, float] = field(default_factory=dict)  # that were told, by order
     at_risk: set[str] = field(default_factory=set)
+    pace: Pace = NO_PACE
+    plan_start: int = 0  # milliseconds since 1970
 
     @property
     def out(self) -> list[str]:
@@ -57,7 +69,8 @@ def fold(begun: Begun, events: Iterable[LoggedEvent], plan_start: int) -> ToldDa
     What was told late is put where it belongs: events count in the order of their times.
     """
     told = ToldDay({each["id"]: each for each in begun.problem.get("customers", ())},
-                {each["id"]: each for each in begun.problem.get("shipments", ())})
+                {each["id"]: each for each in begun.problem.get("shipments", ())},
+                plan_start=plan_start)
     listed = list(events)
     for event in sorted(listed, key=lambda event: (event.time, event.number)):
         _take(told, event)
@@ -85,9 +98,11 @@ def _take(told: ToldDay, event: LoggedEvent) -> None:
     elif event.kind == "vehicle.delayed":
         told.delays.append(event)
     elif event.kind == "vehicle.position" and event.vehicle is not None:
-        told.positions[event.vehicle] = (about["location"][0], about["location"][1])
+        told.sighted[event.vehicle] = event
     elif event.kind == "vehicle.served" and event.step is None and event.vehicle is not None:
         told.elsewhere[about["order"]] = event.vehicle
+    elif event.kind == "plan.changed" and "pace" in about:
+        told.pace = Pace(*map(sum, zip(told.pace, about["pace"], strict=True)))
     elif event.kind == "eta.changed":
         told.etas[about["order"]] = about["arrival"]
     elif event.kind == "order.at_risk":

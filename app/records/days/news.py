@@ -1,38 +1,45 @@
 """What follows from a day's new plan: what clients and customers are told of it."""
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Collection, Iterator, Mapping
 from typing import Any
 
 from pydantic_core import to_json
 
-from app.records.days.fold import Data, ToldDay, visits
+from app.records.days.fold import Data, Pace, ToldDay, visits
+from app.records.days.rows import DayTerms
+from app.records.days.spreads import chance_of
 from app.records.dispatches.rows import ToldRow
 from app.records.dispatches.standing import of_steps
 from app.records.dispatches.steps import flight_id, stop_ids
 from app.schemas.plan import PlanInput, TripInput
 from app.schemas.request import PlanRequest
 
+OVER = 2 / 3
+"""Share of the chance from which on an order is at risk, below which it is so no more."""
+
 
 def news_of(number: int, planned: int, at: int, told: ToldDay, before: PlanInput | None,
             plan: PlanInput, reply: Mapping[str, Any], problem: PlanRequest,
-            threshold: float) -> list[ToldRow]:
+            terms: DayTerms, pace: Pace) -> list[ToldRow]:
     """Return the events of a plan that was just made, `at` being now in ms since 1970.
 
-    It counts with events up to the one numbered `planned`.
+    It counts with events up to the one numbered `planned`; those since the one before had a `pace`.
     """
     was = {order: vehicle for order, vehicle, _ in visits(before or PlanInput(routes=()))}
     moved = sum(was.get(order, vehicle) != vehicle for order, vehicle, _ in visits(plan))
     rows = [_row(number, at, "plan.changed", "", {
         "plan_number": number, "planned": planned, "cost": reply["cost"]["total"], "moved": moved,
-        "left_out": len(reply["unassigned"])})]
+        "left_out": len(reply["unassigned"]), "spread": reply["lateness"]["spread"],
+        **({"pace": pace} if pace.ways else {})})]
     served = served_orders(plan, told)
     for order, vehicle, visit in visits(plan):
         told_before = told.etas.get(order)
         if order not in served and (
-                told_before is None or abs(visit.arrival - told_before) > threshold):
+                told_before is None or abs(visit.arrival - told_before) > terms.eta_threshold):
             rows.append(_row(number, at, "eta.changed", order, {
-                "order": order, "arrival": visit.arrival, "before": told_before}, vehicle))
-    risks = dict(_risks(plan, reply, problem, served))
+                "order": order, "arrival": visit.arrival, "before": told_before,
+                **chance_of(visit)}, vehicle))
+    risks = dict(_risks(plan, reply, problem, served, told.at_risk, terms.risk_threshold))
     rows += [_row(number, at, "order.at_risk", order, {"order": order, "at_risk": True, **why})
              for order, why in risks.items() if order not in told.at_risk]
     rows += [_row(number, at, "order.at_risk", order, {"order": order, "at_risk": False})
@@ -71,8 +78,9 @@ def order_steps(index: int, trip: TripInput) -> Iterator[tuple[str, str]]:
 
 
 def _risks(plan: PlanInput, reply: Mapping[str, Any], problem: PlanRequest,
-           served: Mapping[str, bool]) -> Iterator[tuple[str, Data]]:
-    """Yield the orders that a plan leaves out, or reaches after their windows."""
+           served: Mapping[str, bool], before: Collection[str],
+           threshold: float) -> Iterator[tuple[str, Data]]:
+    """Yield the orders that a plan leaves out, or reaches after their windows, or may so."""
     for left in reply["unassigned"]:
         reasons = left.get("reasons") or [{}]
         yield left["id"], {"why": "left_out", "reason": reasons[0]}
@@ -80,6 +88,11 @@ def _risks(plan: PlanInput, reply: Mapping[str, Any], problem: PlanRequest,
                                 for window in customer.windows), default=float("inf"))
               for customer in problem.customers}
     for order, _, visit in visits(plan):
+        if order in served:
+            continue
         late = visit.service_start - latest.get(order, float("inf"))
-        if late > 0 and order not in served:
-            yield order, {"why": "late", "by": late}
+        expected = chance_of(visit)
+        if late > 0:
+            yield order, {"why": "late", "by": late, **expected}
+        elif (expected.get("chance") or 0.0) >= threshold * (OVER if order in before else 1.0):
+            yield order, {"why": "chance", **expected}

@@ -6,6 +6,8 @@ from typing import Any
 
 from app.records.days.fold import Data, ToldDay
 from app.records.days.rows import Begun
+from app.records.days.sighting import late_by_position
+from app.records.days.spreads import risk_of
 from app.records.dispatches.going_on import OnTheRoad, going_on
 from app.records.dispatches.schemas import StepReply
 from app.records.dispatches.steps import stop_ids
@@ -47,12 +49,13 @@ def asked(begun: Begun, told: ToldDay, plan: PlanInput | None,
     options = {**begun.problem.get("options", {}), "times": "seconds"}
     options["time_limit"] = min(options.get("time_limit", within),
                                 max(LEAST_SEARCHING, SEARCHING * within))
+    options["lateness_risk"] = risk_of(begun, told)
     request = {**begun.problem, "options": options}
     failed: dict[str, float] = {}
     if plan is None:
         replan: Data = {"plan": {"routes": []}, "freeze_before": now}
     else:
-        late = delayed(plan, told, steps, seen)
+        late = delayed(plan, told, seen, late_by_position(begun, told, plan, seen))
         vehicles = {route.vehicle: OnTheRoad(steps.get(route.vehicle, ()),
                                              told.standings.get(route.vehicle, {}))
                     for route in late.routes}
@@ -76,13 +79,14 @@ def _released(order: Data, at: float | None) -> Data:
     return order if at is None else {**order, "release_time": at}
 
 
-def delayed(plan: PlanInput, told: ToldDay, steps: Mapping[str, Sequence[StepReply]],
-            seen: int) -> PlanInput:
-    """Return a plan with the ways longer that vehicles were told to be late on, since it was made.
+def delayed(plan: PlanInput, told: ToldDay, seen: int, sighted: Mapping[str, float]) -> PlanInput:
+    """Return a plan with the ways longer on which vehicles are late, since it was made.
+
+    They were told to be, or `sighted` says so by where they are: by how many seconds.
     """
-    late: dict[str, float] = {}
+    late = dict(sighted)
     for event in told.delays:
-        if event.number > seen and event.vehicle is not None:
+        if event.number > seen and event.vehicle is not None and event.vehicle not in sighted:
             late[event.vehicle] = late.get(event.vehicle, 0.0) + float(event.about["by"])
     if not late:
         return plan

@@ -38,7 +38,8 @@ class DayTerms:
     plan_within: float  # seconds
     eta_threshold: float  # seconds
     clock: float | None  # when it begins, if it goes by what it is told: seconds since plan start
-    secret: str  # signs its quotes
+    secret: str  # signs its quotes, and its customers' links
+    risk_threshold: float = 0.3  # the chance of being late from which on an order is at risk
 
 
 @dataclass(frozen=True)

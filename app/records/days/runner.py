@@ -22,6 +22,7 @@ from app.records.days.fold import ToldDay, fold
 from app.records.days.news import news_of
 from app.records.days.planning import asked, too_late
 from app.records.days.rows import Begun, DayRow
+from app.records.days.spreads import observed
 from app.records.days.store import DayStore
 from app.records.dispatches.instants import PlanStart, instant, milliseconds
 from app.records.dispatches.service import HOUR_MS, work_by
@@ -169,7 +170,8 @@ class DayRunner:
                           flights_by_vehicle(request.problem, plan, self._roads,
                                              instant(day.plan_start)))
         rows = news_of(day.plan_number + 1, day.asked, round(day.plan_start + 1000 * now), told,
-                       before, plan, from_json(reply), problem, begun.terms.eta_threshold)
+                       before, plan, from_json(reply), problem, begun.terms,
+                       observed(before, told, log, day.planned))
         self._store.publish(self._with_end(day, plan), self._by, reply, work, rows)
 
     def _replied(self, day: DayRow, begun: Begun, told: ToldDay, before: PlanInput | None,

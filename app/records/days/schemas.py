@@ -11,7 +11,7 @@ from app.schemas.request import PlanRequest
 from app.schemas.response import PlanReply
 
 PLAN_WITHIN, SHORTEST, LONGEST = 2.0, 0.5, 600.0
-ETA_THRESHOLD = 600.0
+ETA_THRESHOLD, RISK_THRESHOLD = 600.0, 0.3
 
 OrderState = Literal["waiting", "planned", "served", "failed", "doubtful", "left_out"]
 
@@ -35,6 +35,9 @@ class DayRequest(Input):
     eta_threshold: Duration = Field(
         ETA_THRESHOLD, description="By how many seconds an arrival has to move before "
         "`eta.changed` tells it again.")
+    risk_threshold: Annotated[float, Field(gt=0, le=1)] = Field(
+        RISK_THRESHOLD, description="The chance of being late from which on `order.at_risk` tells "
+        "an order. It is over below two thirds of that.")
 
 
 class AcceptRequest(Input):
@@ -57,6 +60,11 @@ class OrderReply(_Reply):
     vehicle: str | None = Field(None, description="Who serves or served it.")
     arrival: float | None = Field(
         None, description="When, by the plan and what was told, in seconds since plan start.")
+    earliest: float | None = Field(
+        None, description="On a tenth of all days it is served by then, with spreads that are "
+        "stated or were seen on this day.")
+    latest: float | None = Field(None, description="On nine tenths of them.")
+    chance: float | None = Field(None, description="That of being late for its window.")
     told: float | None = Field(None, description="The arrival that `eta.changed` told last.")
     at_risk: bool = Field(False, description="Whether `order.at_risk` holds.")
 

@@ -26,6 +26,7 @@ from app.records.days.schemas import (
     AcceptRequest, DayEventsReply, DayReply, DayRequest, LoggedReply, OrderReply, OrderState,
     TakenReply, VehicleReply,
 )
+from app.records.days.spreads import chance_of, is_stated, without_chances
 from app.records.days.store import BY_CLIENT, DayStore
 from app.records.days.telling import Steps
 from app.records.dispatches.errors import TooManyDispatchesError
@@ -89,7 +90,7 @@ class DayService:
                 "path": f"$.problem{error.path[1:]}"}) for error in errors])
         row = self._row(request, owner, client)
         terms = DayTerms(request.plan_within, request.eta_threshold, request.clock,
-                         secrets.token_urlsafe())
+                         secrets.token_urlsafe(), request.risk_threshold)
         return self._store.add(row, Begun(from_json(body)["problem"], terms), self._refuse_more)
 
     def find(self, name: str, owner: str) -> DayRow:
@@ -174,9 +175,12 @@ class DayService:
         if content is None:
             raise NoDayPlanError
         plan = dict(from_json(content))
-        stated = self._store.begun(row.id).problem
+        begun = self._store.begun(row.id)
+        stated = begun.problem
         telling = Telling.of(read_body(PlanRequest, to_json({**stated, "customers": [],
                                                              "shipments": [], "relations": []})))
+        if not is_stated(begun):
+            plan = without_chances(plan)
         telling.tell(PlanReply, plan)
         return {"number": row.plan_number, "planned": row.planned,
                 "plan": {**telling.stated, **plan}}
@@ -316,7 +320,8 @@ def _orders(told: ToldDay, plan: PlanInput, now: float) -> Iterable[OrderReply]:
         elif visit.departure <= now:
             state = "doubtful"
         yield OrderReply(id=order, state=state, vehicle=vehicle, arrival=visit.arrival,
-                         told=told.etas.get(order), at_risk=order in told.at_risk)
+                         told=told.etas.get(order), at_risk=order in told.at_risk,
+                         **chance_of(visit))
     for left in plan.unassigned:
         seen.add(left.id)
         yield OrderReply(id=left.id, state="left_out", at_risk=left.id in told.at_risk)
@@ -335,5 +340,6 @@ def _vehicles(told: ToldDay, plan: PlanInput, row: DayRow) -> list[VehicleReply]
         at = told.told_at.get(name)
         listed.append(VehicleReply(
             vehicle=name, told_at=None if at is None else row.seconds(at), done=done,
-            failed=failed, position=told.positions.get(name), broken=name in told.out))
+            failed=failed, position=None if name not in told.sighted
+            else tuple(told.sighted[name].about["location"]), broken=name in told.out))
     return listed

@@ -1,5 +1,6 @@
 """A day of three vans, told over HTTP by a clock of its own."""
 
+import json
 from typing import Any
 
 import httpx
@@ -76,3 +77,16 @@ def served_by(plan: Data) -> dict[str, str]:
     """Return by which vehicle a plan has each customer served."""
     return {stop["id"]: route["vehicle"] for route in plan["routes"] for trip in route["trips"]
             for stop in trip["stops"] if stop["kind"] == "customer"}
+
+
+def followed(client: httpx.Client, day: str, count: int,
+             headers: dict[str, str] | None = None) -> list[dict[str, Any]]:
+    """Return so many events that a stream tells."""
+    found: list[dict[str, Any]] = []
+    with client.stream("GET", f"/days/{day}/events", headers=headers or {}) as reply:
+        for line in reply.iter_lines():
+            if line.startswith("data:"):
+                found.append(json.loads(line[5:]))
+            if len(found) == count:
+                break
+    return found

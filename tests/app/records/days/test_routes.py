@@ -1,6 +1,5 @@
 """Days told over HTTP, and the plans that follow."""
 
-import json
 import time
 from collections.abc import Iterator
 from concurrent.futures import ThreadPoolExecutor
@@ -14,7 +13,7 @@ from app.records.dispatches.schemas import DriverDay
 from app.serving.settings import Settings
 from tests.app.conftest import SearchingPlanner, ready, serving
 from tests.app.records.days.living import (
-    PROBLEM, begun, clock, order, plan_of, planned, served_by, standing, told,
+    PROBLEM, begun, clock, followed, order, plan_of, planned, served_by, standing, told,
 )
 from tests.app.records.dispatches.days import event, holding, token_of
 
@@ -272,16 +271,3 @@ def events_after(client: httpx.Client, day: str, number: int,
     count = max(least, standing(client, day).revision - number)
     return [(event["kind"], event["about"])
             for event in followed(client, day, count, {"Last-Event-ID": str(number)})]
-
-
-def followed(client: httpx.Client, day: str, count: int,
-             headers: dict[str, str] | None = None) -> list[dict[str, Any]]:
-    """Return so many events that a stream tells."""
-    found: list[dict[str, Any]] = []
-    with client.stream("GET", f"/days/{day}/events", headers=headers or {}) as reply:
-        for line in reply.iter_lines():
-            if line.startswith("data:"):
-                found.append(json.loads(line[5:]))
-            if len(found) == count:
-                break
-    return found
