@@ -9,23 +9,27 @@
 #ifdef __cplusplus
 #include "view.h"
 /* NOLINTNEXTLINE(bugprone-macro-parentheses): a type. */
-#define TANDEM_ROWS(name, row, axes) using name = tandem::View<row, axes>
+#define TANDEM_VIEW(name, row, axes) using name##_##axes##d = tandem::View<row, axes>
 extern "C" {
 #else
-#define TANDEM_ROWS(name, row, axes) \
-    typedef struct name {            \
-        row* data;                   \
-        int64_t shape[axes];         \
-    } name
+#define TANDEM_VIEW(name, row, axes)  \
+    typedef struct name##_##axes##d { \
+        row* data;                    \
+        int64_t shape[axes];          \
+    } name##_##axes##d
 #endif
+/* Of up to five axes. */
+#define TANDEM_ROWS(name, row) \
+    TANDEM_VIEW(name, row, 1); \
+    TANDEM_VIEW(name, row, 2); \
+    TANDEM_VIEW(name, row, 3); \
+    TANDEM_VIEW(name, row, 4); \
+    TANDEM_VIEW(name, row, 5)
 #pragma GCC visibility push(default)
 
 /* How many of each a problem has. */
 typedef struct tandem_size {
-    int64_t depots;
-    int64_t customers;
-    int64_t types;
-    int64_t dimensions;
+    int64_t depots, customers, types, dimensions;
 } tandem_size;
 
 /* A node, as much as fits a line of the processor's cache: when its window opens; the last arrival
@@ -38,45 +42,34 @@ typedef struct tandem_size {
    `window_latest` closes the window before, far behind the last, and its `window_earliest` opens
    the next. */
 typedef struct tandem_node {
-    int64_t window_earliest;
-    int64_t arrival_limit;
-    int64_t service_duration;
-    int64_t release;
-    int64_t window_latest;
+    int64_t window_earliest, arrival_limit, service_duration, release, window_latest;
     int64_t demand[3];
 } tandem_node;
 
 /* Where a node is, equal at one place, and how long whoever comes from elsewhere sets up there.
    Nobody has a row where nobody has to. Legs hold it, unless speeds change or it leads back. */
 typedef struct tandem_setup {
-    int64_t site;
-    int64_t setup_duration;
+    int64_t site, setup_duration;
 } tandem_setup;
 
 /* What lateness and waiting at a node cost per hour, in a search per ms; and what it costs once to
    be late at all. */
 typedef struct tandem_price {
-    double lateness;
-    double waiting;
-    double late;
+    double lateness, waiting, late;
 } tandem_price;
 
 /* Bits of the goods at a node that some others must not go with, and of those others: on one trip
    with them, and on one vehicle. Bits of the relations by which a customer goes with others: on one
    trip, and by one vehicle. Nobody has a row where all may go with all. */
 typedef struct tandem_goods {
-    int64_t held;
-    int64_t barred_on_trip;
-    int64_t barred_on_vehicle;
-    int64_t kept_on_trip;
-    int64_t kept_on_vehicle;
+    int64_t held, barred_on_trip, barred_on_vehicle;
+    int64_t kept_on_trip, kept_on_vehicle;
 } tandem_goods;
 
 /* Charged batteries, and places to charge, for vehicles that fly from a depot: how many there are,
    `unlimited` if enough, or how many are taken. */
 typedef struct tandem_hub {
-    int64_t batteries;
-    int64_t chargers;
+    int64_t batteries, chargers;
 } tandem_hub;
 
 /* An end of a shipment: the node of the other end, -1 where there is none, and whether the parcel
@@ -85,31 +78,23 @@ typedef struct tandem_hub {
    places of a customer, else the node itself; and the next of those pickups or places, the first
    behind the last. Nobody has a row where there are neither. */
 typedef struct tandem_pair {
-    int64_t partner;
-    int64_t is_delivery;
-    int64_t unit;
-    int64_t next_place;
+    int64_t partner, is_delivery, unit, next_place;
 } tandem_pair;
 
 /* How long after service begins at another customer it begins at one whom relations name behind;
    `node` is -1 behind the last. Nobody has a row where no relation says so. */
 typedef struct tandem_lag {
-    int64_t node;
-    int64_t least;
-    int64_t most;
+    int64_t node, least, most;
 } tandem_lag;
 
 /* From when to when service may begin at a customer, by those whom other vehicles serve. */
 typedef struct tandem_span {
-    int64_t soonest;
-    int64_t latest;
+    int64_t soonest, latest;
 } tandem_span;
 
 /* That one vehicle more, or less, is charged at a depot from a time on. */
 typedef struct tandem_plugging {
-    int64_t depot;
-    int64_t time;
-    int64_t change;
+    int64_t depot, time, change;
 } tandem_plugging;
 
 /* A vehicle type. Its speed changes are a number, -1 without a profile. What a vehicle carries
@@ -130,83 +115,36 @@ typedef struct tandem_plugging {
    `breaks_since` if that isn't before all. Whose driver `must_rest`, does as `rules/driving.h`
    says. */
 typedef struct tandem_vehicle_type {
-    int64_t count;
-    int64_t travel;
-    int64_t depot;
-    int64_t begins_at;
-    int64_t ends_at;
-    int64_t changes_ends;
-    int64_t shift_earliest;
-    int64_t busy_until;
-    int64_t begun;
-    int64_t shift_latest;
-    int64_t max_working_duration;
-    int64_t usual_end;
-    int64_t usual_working;
-    int64_t max_trip_distance;
-    int64_t max_distance;
+    int64_t count, travel;
+    int64_t depot, begins_at, ends_at, changes_ends;
+    int64_t shift_earliest, busy_until, begun, shift_latest, max_working_duration;
+    int64_t usual_end, usual_working;
+    int64_t max_trip_distance, max_distance;
     int64_t limited_travel;      /* whose distances count for that */
     int64_t max_travel_duration; /* what driving rules allow in a day, if that is less */
-    int64_t max_trips;
-    int64_t max_stops;
-    int64_t max_sorties;
-    int64_t max_airborne;
-    int64_t truck_waits;
-    int64_t reload_duration;
-    int64_t speed_changes;
-    int64_t drone_row;
-    int64_t drones;
-    int64_t drone_travel;
-    int64_t home_travel;
-    int64_t endurance;
-    int64_t waiting_counts;
-    int64_t launch_duration;
-    int64_t relaunch_duration;
-    int64_t recovery_duration;
-    int64_t straight_travel;
-    int64_t max_range;
-    int64_t variant;
-    int64_t drone_variant;
-    int64_t points;
-    int64_t battery;
-    int64_t lands;
-    int64_t climb_duration;
-    int64_t descent_duration;
-    int64_t charge;
-    int64_t flies;
-    int64_t takes_batteries;
-    int64_t trips_uncharged;
-    int64_t shares_chargers;
+    int64_t max_trips, max_stops, max_sorties, max_airborne;
+    int64_t truck_waits, reload_duration, speed_changes;
+    int64_t drone_row, drones, drone_travel, home_travel;
+    int64_t endurance, waiting_counts;
+    int64_t launch_duration, relaunch_duration, recovery_duration;
+    int64_t straight_travel, max_range;
+    int64_t variant, drone_variant;
+    int64_t points, battery, lands, climb_duration, descent_duration, charge;
+    int64_t flies, takes_batteries, trips_uncharged, shares_chargers;
     int64_t pickup_order;
     int64_t lifo; /* whether only what was loaded last can be unloaded */
-    int64_t carried;
-    int64_t capacity[9];
-    int64_t payload[9];
-    int64_t weights[24];
-    int64_t cruise[24];
-    int64_t hover[24];
-    int64_t climb[24];
-    int64_t descent[24];
+    int64_t carried, capacity[9], payload[9];
+    int64_t weights[24], cruise[24], hover[24], climb[24], descent[24];
     int64_t first_charge[256];
-    int64_t storms;
-    int64_t storm_from[32];
-    int64_t storm_until[32];
+    int64_t storms, storm_from[32], storm_until[32];
     int64_t storm_zones[32]; /* bits of the zones whose hours it is; 0: for all that flies */
-    int64_t breaks;
-    int64_t breaks_since;
-    int64_t break_earliest[8];
-    int64_t break_latest[8];
-    int64_t break_duration[8];
+    int64_t breaks, breaks_since, break_earliest[8], break_latest[8], break_duration[8];
     int64_t break_after_departure[8]; /* whether both count from when the route begins */
-    int64_t break_anywhere[8];
-    int64_t break_unpaid[8];
+    int64_t break_anywhere[8], break_unpaid[8];
     int64_t break_max_load[72]; /* (break, dimension) the most that may be aboard */
     int64_t must_rest;
     int64_t rest_durations[3]; /* of a whole rest, and of the first and the second part of one */
-    int64_t max_driving;
-    int64_t max_work;
-    int64_t driven_before;
-    int64_t worked_before;
+    int64_t max_driving, max_work, driven_before, worked_before;
     int64_t half_rested_before; /* whether the first part of a rest was the last */
     int64_t rests_in_flights;   /* whether the driver may rest while drones are out */
     int64_t work_interrupts;    /* whether other work that long interrupts driving as a rest does */
@@ -217,14 +155,7 @@ typedef struct tandem_vehicle_type {
 /* What a vehicle costs, and what per km, per customer of the truck and per hour, its drones' apart;
    per km and part of the first dimension aboard. In a search per mm and per ms. */
 typedef struct tandem_rate {
-    double fixed;
-    double distance;
-    double stop;
-    double time;
-    double overtime;
-    double drone_distance;
-    double drone_time;
-    double load;
+    double fixed, distance, stop, time, overtime, drone_distance, drone_time, load;
 } tandem_rate;
 
 /* How routes of a type are timed and priced. */
@@ -239,36 +170,18 @@ typedef struct tandem_evaluation {
 } tandem_evaluation;
 
 typedef struct tandem_leg_law {
-    int64_t table;
-    int64_t rounding;
-    int64_t more;
-    int64_t nowhere;
-    int64_t sets_up;
-    double metres;
-    double pace;
+    int64_t table, rounding, more, nowhere, sets_up;
+    double metres, pace;
 } tandem_leg_law;
 
 typedef struct tandem_point {
-    int64_t node;
-    int64_t site;
-    int64_t setup_duration;
-    double x;
-    double y;
-    double z;
+    int64_t node, site, setup_duration;
+    double x, y, z;
 } tandem_point;
 
 typedef struct tandem_cost {
-    double fixed;
-    double distance;
-    double stops;
-    double time;
-    double overtime;
-    double lateness;
-    double earliness;
-    double makespan;
-    double balance;
-    double too_few_vehicles;
-    double unassigned;
+    double fixed, distance, stops, time, overtime, lateness, earliness;
+    double makespan, balance, too_few_vehicles, unassigned;
 } tandem_cost;
 
 /* What an action on a customer leads to. */
@@ -310,14 +223,8 @@ typedef struct tandem_vehicle_features {
 
 /* How many there are of each; the turn; the last stamp that was given. */
 typedef struct tandem_search_counts {
-    int64_t active;
-    int64_t missing;
-    int64_t absent;
-    int64_t touched;
-    int64_t turn;
-    int64_t stamp;
-    int64_t best_missing;
-    int64_t customers;
+    int64_t active, missing, absent, touched;
+    int64_t turn, stamp, best_missing, customers;
     int64_t changed; /* slots, since the best; -1 where any may have */
     int64_t stay;    /* turns near one customer; 0: everywhere */
     int64_t focus;   /* that customer */
@@ -327,72 +234,43 @@ typedef struct tandem_search_counts {
 
 /* Costs of the routes as they are and at their best, and what the annealing goes by. */
 typedef struct tandem_search_values {
-    double cost;
-    double best;
-    double temperature;
+    double cost, best, temperature;
     double cooling; /* factor of the temperature each turn */
     double longest; /* how long strings are at most where routes are long */
 } tandem_search_values;
 
 /* Arrays of others, row by row. */
 
-TANDEM_ROWS(tandem_bool_1d, bool, 1);
-TANDEM_ROWS(tandem_bool_2d, bool, 2);
-TANDEM_ROWS(tandem_bool_3d, bool, 3);
-TANDEM_ROWS(tandem_cost_1d, tandem_cost, 1);
-TANDEM_ROWS(tandem_evaluation_1d, const tandem_evaluation, 1);
-TANDEM_ROWS(tandem_f32_1d, float, 1);
-TANDEM_ROWS(tandem_f32_2d, float, 2);
-TANDEM_ROWS(tandem_f32_3d, float, 3);
-TANDEM_ROWS(tandem_f32_4d, float, 4);
-TANDEM_ROWS(tandem_f64_1d, double, 1);
-TANDEM_ROWS(tandem_f64_2d, double, 2);
-TANDEM_ROWS(tandem_f64_3d, double, 3);
-TANDEM_ROWS(tandem_goods_1d, const tandem_goods, 1);
-TANDEM_ROWS(tandem_goods_2d, const tandem_goods, 2);
-TANDEM_ROWS(tandem_hub_1d, tandem_hub, 1);
-TANDEM_ROWS(tandem_hub_2d, tandem_hub, 2);
-TANDEM_ROWS(tandem_i32_1d, int32_t, 1);
-TANDEM_ROWS(tandem_i32_2d, int32_t, 2);
-TANDEM_ROWS(tandem_i32_3d, int32_t, 3);
-TANDEM_ROWS(tandem_i32_4d, const int32_t, 4);
-TANDEM_ROWS(tandem_i64_1d, int64_t, 1);
-TANDEM_ROWS(tandem_i64_2d, int64_t, 2);
-TANDEM_ROWS(tandem_i64_3d, int64_t, 3);
-TANDEM_ROWS(tandem_i64_4d, const int64_t, 4);
-TANDEM_ROWS(tandem_i64_5d, const int64_t, 5);
-TANDEM_ROWS(tandem_lag_2d, const tandem_lag, 2);
-TANDEM_ROWS(tandem_lag_3d, const tandem_lag, 3);
-TANDEM_ROWS(tandem_leg_law_1d, const tandem_leg_law, 1);
-TANDEM_ROWS(tandem_node_2d, const tandem_node, 2);
-TANDEM_ROWS(tandem_node_3d, const tandem_node, 3);
-TANDEM_ROWS(tandem_node_4d, const tandem_node, 4);
-TANDEM_ROWS(tandem_outlook_1d, tandem_outlook, 1);
-TANDEM_ROWS(tandem_outlook_2d, tandem_outlook, 2);
-TANDEM_ROWS(tandem_pair_1d, const tandem_pair, 1);
-TANDEM_ROWS(tandem_pair_2d, const tandem_pair, 2);
-TANDEM_ROWS(tandem_point_1d, const tandem_point, 1);
-TANDEM_ROWS(tandem_price_1d, const tandem_price, 1);
-TANDEM_ROWS(tandem_price_2d, const tandem_price, 2);
-TANDEM_ROWS(tandem_rate_1d, const tandem_rate, 1);
-TANDEM_ROWS(tandem_rate_2d, const tandem_rate, 2);
-TANDEM_ROWS(tandem_setup_1d, const tandem_setup, 1);
-TANDEM_ROWS(tandem_setup_2d, const tandem_setup, 2);
-TANDEM_ROWS(tandem_size_1d, const tandem_size, 1);
-TANDEM_ROWS(tandem_plugging_1d, tandem_plugging, 1);
-TANDEM_ROWS(tandem_span_1d, tandem_span, 1);
-TANDEM_ROWS(tandem_u64_1d, uint64_t, 1);
-TANDEM_ROWS(tandem_vehicle_type_1d, const tandem_vehicle_type, 1);
-TANDEM_ROWS(tandem_vehicle_type_2d, const tandem_vehicle_type, 2);
+TANDEM_ROWS(tandem_bool, bool);
+TANDEM_ROWS(tandem_cost, tandem_cost);
+TANDEM_ROWS(tandem_evaluation, const tandem_evaluation);
+TANDEM_ROWS(tandem_f32, float);
+TANDEM_ROWS(tandem_f64, double);
+TANDEM_ROWS(tandem_goods, const tandem_goods);
+TANDEM_ROWS(tandem_hub, tandem_hub);
+TANDEM_ROWS(tandem_i32, int32_t);
+TANDEM_ROWS(tandem_i64, int64_t);
+TANDEM_ROWS(tandem_lag, const tandem_lag);
+TANDEM_ROWS(tandem_leg_law, const tandem_leg_law);
+TANDEM_ROWS(tandem_node, const tandem_node);
+TANDEM_ROWS(tandem_outlook, tandem_outlook);
+TANDEM_ROWS(tandem_pair, const tandem_pair);
+TANDEM_ROWS(tandem_point, const tandem_point);
+TANDEM_ROWS(tandem_price, const tandem_price);
+TANDEM_ROWS(tandem_rate, const tandem_rate);
+TANDEM_ROWS(tandem_setup, const tandem_setup);
+TANDEM_ROWS(tandem_size, const tandem_size);
+TANDEM_ROWS(tandem_plugging, tandem_plugging);
+TANDEM_ROWS(tandem_span, tandem_span);
+TANDEM_ROWS(tandem_u64, uint64_t);
+TANDEM_ROWS(tandem_vehicle_type, const tandem_vehicle_type);
 
 typedef struct tandem_cells {
-    tandem_f64_2d low;    /* (cell, axis) */
-    tandem_f64_2d high;   /* (cell, axis) */
-    tandem_i64_1d first;  /* (cell,) its points, by their place in `point` */
-    tandem_i64_1d last;   /* (cell,) */
-    tandem_i64_2d half;   /* (cell, 2) the cells that it is halved into; -1 if it is not */
-    tandem_f64_2d point;  /* (place, axis) */
-    tandem_i32_1d number; /* (place,) of the point */
+    tandem_f64_2d low, high;   /* (cell, axis) */
+    tandem_i64_1d first, last; /* (cell,) its points, by their place in `point` */
+    tandem_i64_2d half;        /* (cell, 2) the cells that it is halved into; -1 if it is not */
+    tandem_f64_2d point;       /* (place, axis) */
+    tandem_i32_1d number;      /* (place,) of the point */
 } tandem_cells;
 
 typedef struct tandem_sights {
@@ -406,10 +284,9 @@ typedef struct tandem_sights {
    corner, in `between`, are those with the area on the left alone, on either, on the right alone.
  */
 typedef struct tandem_turns {
-    tandem_i32_1d reached;          /* (entry of `outward`,) */
-    tandem_i32_1d arrived;          /* (entry of `between`,) at its end */
-    tandem_i64_1d only_left_end;    /* (corner,) */
-    tandem_i64_1d only_right_begin; /* (corner,) */
+    tandem_i32_1d reached;                         /* (entry of `outward`,) */
+    tandem_i32_1d arrived;                         /* (entry of `between`,) at its end */
+    tandem_i64_1d only_left_end, only_right_begin; /* (corner,) */
 } tandem_turns;
 
 typedef struct tandem_legs {
@@ -505,12 +382,8 @@ typedef struct tandem_step_weights {
     tandem_f32_1d globe_output_bias;
     tandem_f32_2d action;
     tandem_f32_1d action_bias;
-    tandem_f32_2d glimpse_bias;
-    tandem_f32_2d glimpse_output;
-    tandem_f32_2d action_query;
-    tandem_f32_2d action_mix;
-    tandem_f32_1d action_mix_bias;
-    tandem_f32_1d action_score;
+    tandem_f32_2d glimpse_bias, glimpse_output, action_query, action_mix;
+    tandem_f32_1d action_mix_bias, action_score;
 } tandem_step_weights;
 
 /* How a problem is searched: which moves there are, and where insertion looks. */
@@ -533,14 +406,11 @@ typedef struct tandem_strategy {
 /* What a plan costs as a whole: each ms until its last end, of how unequal what `measure` tells of
    its vehicles is, and each vehicle fewer than are to be used. */
 typedef struct tandem_fairness {
-    double makespan;
-    double balance;
-    int64_t measure;
-    int64_t min_vehicles;
+    double makespan, balance;
+    int64_t measure, min_vehicles;
     double too_few;
     double used; /* how many vehicles, the sum of their shares and of the squares, their last end */
-    double sum;
-    double squares;
+    double sum, squares;
     int64_t latest;
 } tandem_fairness;
 
@@ -605,16 +475,13 @@ typedef struct tandem_search tandem_search;
 typedef struct tandem_seen {
     tandem_search_counts* count;
     tandem_search_values* value;
-    tandem_u64_1d rng;     /* (1,) */
-    tandem_i64_1d active;  /* slots in use, and behind them those that are free */
-    tandem_i64_1d missing; /* customers left out */
-    tandem_i64_1d best_missing;
-    tandem_i64_1d absences;  /* (node,) turns after which a customer was left out */
-    tandem_i64_1d used;      /* (type,) routes */
-    tandem_i64_1d best_used; /* likewise */
-    tandem_f64_1d cost;      /* (slot,) of each route */
-    tandem_f64_1d best_cost; /* likewise */
-    tandem_f64_3d alone;     /* (type, 2, node) cost of a route that serves one customer */
+    tandem_u64_1d rng;                   /* (1,) */
+    tandem_i64_1d active;                /* slots in use, and behind them those that are free */
+    tandem_i64_1d missing, best_missing; /* customers left out */
+    tandem_i64_1d absences;              /* (node,) turns after which a customer was left out */
+    tandem_i64_1d used, best_used;       /* (type,) routes */
+    tandem_f64_1d cost, best_cost;       /* (slot,) of each route */
+    tandem_f64_3d alone; /* (type, 2, node) cost of a route that serves one customer */
 } tandem_seen;
 
 /* Functions return 0, or -1 without memory, or -2 after any other failure. */
@@ -674,8 +541,6 @@ int tandem_fly_around(const tandem_sights* outward, const tandem_sights* between
                       const tandem_bool_2d* wanted, const tandem_i64_1d* order, bool mutual,
                       int64_t first, int64_t last, const tandem_f64_2d* distance,
                       const tandem_f64_2d* duration);
-
-/* Rules. */
 
 /* Simulation. */
 
@@ -779,11 +644,6 @@ int tandem_go_back(tandem_search* search);
 
 /* Search: insertion. */
 
-/* Tell what it costs to insert a customer on a route: 0: behind a stop, 1: on a sortie from stop
-   `first` to `last` by the second drone, 2: by that on a trip of its own behind `first`, 3 or 4:
-   where a trip begins, or ends, there. */
-int tandem_price_move(const tandem_problem_data* data, tandem_search* search, int64_t kind,
-                      int64_t slot, int64_t first, int64_t last, int64_t node, double* cost);
 /* Write the cheapest legal places of a customer, or of a shipment by its first pickup, on a route
    as it is and on trips more of it: what each costs, and its placements as node, how (0: by truck
    at stop `from`, 1: a halt, 2 and 3: a trip begins or ends, 4: flown to from stop `from` to `to`
@@ -793,15 +653,6 @@ int tandem_price_move(const tandem_problem_data* data, tandem_search* search, in
 int tandem_write_places(const tandem_problem_data* data, tandem_search* search, int64_t node,
                         int64_t slot, const tandem_f64_1d* costs, const tandem_i64_3d* placements,
                         int64_t* count);
-/* Tell what the cheapest stop beside neighbours costs a customer, where detours alone cost. */
-int tandem_cost_beside(const tandem_problem_data* data, tandem_search* search, int64_t node,
-                       double* cost);
-
-/* Tell what is kept of a customer's place on a route: how many placements, 0 if none is found that
-   costs less, -1 if nothing is kept; and that cost. */
-int tandem_kept_place(tandem_search* search, int64_t node, int64_t slot, double* cost,
-                      int64_t* found);
-
 /* Search: moves. */
 
 /* Ruin and recreate; by an order, insert all who are left out instead. */

@@ -1,10 +1,5 @@
 #include "search/search.h"
 
-#include <algorithm>
-#include <array>
-#include <memory>
-
-#include "guard.h"
 #include "search/route/state.h"
 
 namespace tandem {
@@ -99,13 +94,4 @@ int tandem_missing_cost(const tandem_problem_data* data, tandem_search* search, 
 
 int tandem_go_back(tandem_search* search) {
     return guarded([&] { go_back(*search); });
-}
-
-int tandem_kept_place(tandem_search* search, int64_t node, int64_t slot, double* cost,
-                      int64_t* found) {
-    return guarded([&] {
-        const bool is_kept = search->kept_stamp(node, slot) == search->now.route[slot].stamp;
-        *found = is_kept ? search->kept_move(node, slot).count : nowhere;
-        *cost = search->kept_cost(node, slot);
-    });
 }

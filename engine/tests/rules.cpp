@@ -135,7 +135,7 @@ void rooms_between(const tandem_vehicle_type* type, const int64_t* amounts, int6
                    int64_t tiers, const int64_t* route, int64_t length, int64_t more,
                    int64_t* found) {
     const View<const Int, 3> asked(amounts, {nodes, tiers, 8});
-    std::vector<StopLoad> loads(static_cast<std::size_t>(tiers * (length + 2)));
+    std::vector<StopLoad> loads(std::size_t(tiers * (length + 2)));
     const View<StopLoad, 2> stops(loads.data(), {tiers, length + 2});
     bool allowed = true;
     for (Int tier = 0; tier < tiers; ++tier) {

@@ -32,7 +32,7 @@ TEST_CASE("a truck with drones of several types has a row for each") {
     CHECK(num_drone_rows(types(), 1) == 3);
     const std::array<Int, 6> expected = {2, 2, 3, 4, 4, 4};
     for (Int drone = 0; drone < 6; ++drone) {
-        CHECK(row_of_drone(types(), 1, drone) == expected[static_cast<std::size_t>(drone)]);
+        CHECK(row_of_drone(types(), 1, drone) == expected[std::size_t(drone)]);
     }
     CHECK(drone_row_at(types(), 1, 2) == 4);
     CHECK(first_drone(types(), 1, 2) == 0);

@@ -19,7 +19,7 @@ public:
     Day() {
         row_.append({0, nobody, true});
         for (Int node = 1; node <= stops; ++node) {
-            row_.append({static_cast<std::int32_t>(node), nobody, true});
+            row_.append({std::int32_t(node), nobody, true});
         }
         row_.append({0, nobody, true});
         for (Int node = stops + 1; node <= customers; ++node) left_out_.push_back(node);
@@ -84,9 +84,9 @@ public:
             REQUIRE(row_[row_.begin_of(place)].flown != nobody);
         }
         std::sort(seen.begin(), seen.end());
-        REQUIRE(static_cast<Int>(seen.size()) == customers);
+        REQUIRE(Int(seen.size()) == customers);
         for (Int node = 1; node <= customers; ++node) {
-            REQUIRE(seen[static_cast<std::size_t>(node - 1)] == node);
+            REQUIRE(seen[std::size_t(node - 1)] == node);
         }
     }
 

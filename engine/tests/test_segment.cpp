@@ -18,10 +18,8 @@ struct Row {
     std::array<Node, num_stops> node;
     std::array<Int, num_stops + 1> gap;
 
-    Windows place(Int stop) const {
-        return View<const Node, 1>{&node[static_cast<std::size_t>(stop)], {1}};
-    }
-    Int gap_before(Int stop) const { return gap[static_cast<std::size_t>(stop)]; }
+    Windows place(Int stop) const { return View<const Node, 1>{&node[std::size_t(stop)], {1}}; }
+    Int gap_before(Int stop) const { return gap[std::size_t(stop)]; }
 
     // A route that leaves at `time`, up to the leg to a stop; none if somebody is served too late.
     std::optional<PaidFront> front(Int time, Int stop) const {
@@ -38,7 +36,7 @@ struct Row {
         PaidRear rear{latest, none, 0, none};
         for (Int p = num_stops - 1; p >= stop; --p) {
             rear.drive(gap_before(p + 1));
-            const Node& here = node[static_cast<std::size_t>(p)];
+            const Node& here = node[std::size_t(p)];
             const Int service = here.service_duration;
             rear.pass({service, here.window_earliest + service}, {none, here.arrival_limit});
         }

@@ -13,7 +13,7 @@ namespace tandem {
 namespace {
 
 constexpr Int nodes = 40;
-constexpr auto num_nodes = static_cast<std::size_t>(nodes);
+constexpr auto num_nodes = std::size_t(nodes);
 
 // A truck with a drone twice as fast, and customers at places on a grid; time alone costs. A fifth
 // of them can't be flown to.
@@ -36,8 +36,8 @@ struct Day {
                     const Int far_off =
                         std::abs(at[from][0] - at[to][0]) + std::abs(at[from][1] - at[to][1]);
                     const std::size_t entry = 2 * ((travel * num_nodes + from) * num_nodes + to);
-                    legs[entry] = static_cast<std::int32_t>(travel == 0 ? 2 * far_off : far_off);
-                    legs[entry + 1] = static_cast<std::int32_t>(far_off);
+                    legs[entry] = std::int32_t(travel == 0 ? 2 * far_off : far_off);
+                    legs[entry + 1] = std::int32_t(far_off);
                 }
             }
         }
@@ -95,7 +95,7 @@ TEST_CASE("a changed order costs what it does if all of it is cut anew") {
         measure(data, 0, line, line.size());
         std::vector<Line> again = room;
         const double after = split(data, 0, {again.data(), {nodes + 1}}, line.size(), fresh);
-        const double most = static_cast<double>(below(rng, 20));
+        const double most = double(below(rng, 20));
         const double found =
             split_changed(data, 0, line, line.size(), {{one, other}, scratch, most}, changed);
         if (found == infinite_cost) {
@@ -128,9 +128,9 @@ TEST_CASE("an order with a place more or less costs what it does if all of it is
             room.resize(num_nodes + 1);
             Int place = 0;
             for (Int node = 0; node < nodes; ++node) {
-                if (node != one || !lacks_one) room[static_cast<std::size_t>(place++)].node = node;
+                if (node != one || !lacks_one) room[std::size_t(place++)].node = node;
             }
-            room[static_cast<std::size_t>(place++)].node = 0;
+            room[std::size_t(place++)].node = 0;
             const View<Line, 1> line{room.data(), {place}};
             measure(data, 0, line, place);
             return line;
@@ -140,7 +140,7 @@ TEST_CASE("an order with a place more or less costs what it does if all of it is
         const double cost = split(data, 0, former, former.size(), scratch);
         const View<Line, 1> line = write(now, more < 0);
         const double after = split(data, 0, write(again, more < 0), line.size(), fresh);
-        const double most = static_cast<double>(below(rng, 20));
+        const double most = double(below(rng, 20));
         const double found =
             split_changed(data, 0, line, line.size(), {{one, one, more}, scratch, most}, changed);
         if (found == infinite_cost) {

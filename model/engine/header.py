@@ -20,6 +20,9 @@ _NUMBERS = {"double": np.float64, "float": np.float32, "_Bool": np.bool_, "int64
             "uint64_t": np.uint64, "int32_t": np.int32, "uint32_t": np.uint32, "int": np.int32,
             "int8_t": np.int8, "uint8_t": np.uint8}
 
+MOST_AXES = 5
+"""Of arrays that the engine takes."""
+
 
 def header() -> Path:
     """Return where the header lies: beside the library once installed, else with its source."""
@@ -99,9 +102,10 @@ def _pointers() -> dict[str, Any]:
 def _declarations(text: str) -> str:
     """Return a C header without what C++ alone reads, and as the preprocessor leaves it."""
     text = re.sub(r"^#ifdef __cplusplus$.*?^#endif$", "", text, flags=re.MULTILINE | re.DOTALL)
-    text = re.sub(r"^#.*$", "", text, flags=re.MULTILINE)
-    return re.sub(r"\bTANDEM_ROWS\((\w+), ([\w ]+), (\d)\)",
-                  r"typedef struct \1 { \2* data; int64_t shape[\3]; } \1", text)
+    text = re.sub(r"^#(?:.*\\\n)*.*$", "", text, flags=re.MULTILINE)
+    return re.sub(r"\bTANDEM_ROWS\((\w+), ([\w ]+)\);", lambda found: "".join(
+        f"typedef struct {found[1]}_{axes}d {{ {found[2]}* data; int64_t shape[{axes}]; }} "
+        f"{found[1]}_{axes}d;" for axes in range(1, MOST_AXES + 1)), text)
 
 
 def dtype_of(name: str) -> np.dtype[Any]:

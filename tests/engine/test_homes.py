@@ -32,7 +32,7 @@ def stated() -> set[str]:
     bodies = [body for name, body in re.findall(
         r"typedef struct (\w+) \{(.*?)\} \1;", header, re.DOTALL) if name in RULES]
     assert len(bodies) == len(RULES)
-    return set(re.findall(r"(\w+)(?:\[\d+\])?;", "".join(bodies))) - ANYBODYS
+    return set(re.findall(r"(\w+)(?:\[\d+\])?[,;]", "".join(bodies))) - ANYBODYS
 
 
 def fields_of(text: str) -> set[str]:

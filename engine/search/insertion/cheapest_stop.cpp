@@ -1,16 +1,9 @@
 #include "search/insertion/cheapest_stop.h"
 
-#include <algorithm>
 #include <cmath>
 
-#include "guard.h"
-#include "rules/load.h"
-#include "rules/shift.h"
-#include "search/insertion/newcomer.h"
 #include "search/route/goods.h"
-#include "search/route/rarer.h"
 #include "search/route/stop_loads.h"
-#include "search/route/vehicles.h"
 #include "search/search.h"
 
 namespace tandem {
@@ -127,15 +120,3 @@ void scan_beside(const Insertion& insertion) {
 }
 
 }  // namespace tandem
-
-extern "C" int tandem_cost_beside(const tandem_problem_data* data, tandem_search* search,
-                                  int64_t node, double* cost) {
-    using namespace tandem;
-    return guarded([&] {
-        const ProblemData problem = data_of(*data);
-        const Searcher& working = *search;
-        Best best{problem.strategy.blink, working.rng};
-        scan_beside({problem, working, node, false, best});
-        *cost = best.cost;
-    });
-}

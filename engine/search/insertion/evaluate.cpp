@@ -1,29 +1,11 @@
-#include "search/insertion/evaluate.h"
 
-#include <algorithm>
-#include <optional>
 
-#include "guard.h"
-#include "randomness.h"
-#include "rules/drone_types.h"
-#include "rules/flown_trip.h"
-#include "rules/leg.h"
-#include "rules/load.h"
-#include "rules/pair.h"
-#include "rules/shift.h"
-#include "rules/start.h"
-#include "rules/window.h"
 #include "search/insertion/parts_alone.h"
 #include "search/insertion/proposal.h"
 #include "search/route/block.h"
-#include "search/route/edit.h"
 #include "search/route/ends.h"
-#include "search/route/flown_trips.h"
-#include "search/route/rarer.h"
 #include "search/route/refresh.h"
 #include "search/route/resting.h"
-#include "search/route/routes.h"
-#include "search/route/vehicles.h"
 #include "search/search.h"
 
 namespace tandem {
@@ -276,30 +258,3 @@ double price_stop(const ProblemData& data, const Fleet& fleet, Int slot, Int p,
 }
 
 }  // namespace tandem
-
-using namespace tandem;
-
-int tandem_price_move(const tandem_problem_data* data, tandem_search* search, int64_t kind,
-                      int64_t slot, int64_t first, int64_t last, int64_t node, double* cost) {
-    return guarded([&] {
-        const Fleet& routes = search->now;
-        const ProblemData problem = data_of(*data);
-        const Int type = routes.route[slot].type, depot = problem.type[type].depot;
-        Move move{};
-        move.between(slot, type, first, std::max(last, first + 1));
-        switch (kind) {
-            case 0:
-                move.add(How::serve, node, first + 1);
-                break;
-            case 1:
-                move.between(slot, type, first, last).add(How::fly, node, first, last, 1);
-                break;
-            case 2:
-                fly_trip(move, first, depot, node, 1);
-                break;
-            default:
-                split_trip(move, first, depot, node, kind == 4);
-        }
-        *cost = price_move(problem, routes, move, node, infeasible);
-    });
-}

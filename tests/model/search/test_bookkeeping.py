@@ -6,7 +6,6 @@ import numpy as np
 import pytest
 
 from model.engine.instance import pack
-from model.engine.library import call
 from model.problem import Problem
 from model.search.beginning.construct import begin_anew
 from model.search.beginning.translate import make_searcher
@@ -16,9 +15,7 @@ from model.search.route.state import Searcher
 from model.search.problem_data import make_data
 from model.search.sharing import slots_of
 from model.solution import Solution
-from tests.model.search.found import (
-    INFEASIBLE, at_best, beside_neighbours, copied, read_plan, served_by,
-)
+from tests.model.search.found import at_best, served_by
 from training.instances import generate
 
 pytestmark = pytest.mark.slow
@@ -103,20 +100,6 @@ def test_a_search_that_stays_near_by_gets_everywhere() -> None:
         seen.add(int(searcher.count.focus))
     assert len(seen) > 20
     assert all(problem.num_depots <= node < problem.num_nodes for node in seen)
-
-
-def test_no_cheaper_place_beside_a_neighbour_is_passed_over() -> None:
-    problem, data, searcher = begun("cvrp", SOME)
-    data = data._replace(strategy=data.strategy._replace(blink=0.0))
-    plan, found = read_plan(data, copied(data, searcher)), 0
-    for route in plan.routes:
-        others = tuple(other for other in plan.routes if other is not route)
-        left = make_searcher(problem, data, Solution(others), np.random.SeedSequence(3))
-        for node in [stop.node for stop in route.trips[0].customer_stops]:
-            cost = call("tandem_cost_beside", data, left, node)
-            assert cost == pytest.approx(min(INFEASIBLE, beside_neighbours(data, others, node)))
-            found += cost < INFEASIBLE
-    assert found > SOME / 20
 
 
 def test_many_customers_are_sorted_as_few_are() -> None:

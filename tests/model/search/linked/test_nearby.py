@@ -1,8 +1,9 @@
-"""Among linked stops, customers of many are tried beside all neighbours."""
+"""Customers of many are tried beside all neighbours, among linked stops and others."""
 
 from dataclasses import replace
 
 import numpy as np
+import pytest
 
 from model.engine.instance import pack
 from model.search.beginning.construct import begin_anew
@@ -10,7 +11,7 @@ from model.search.beginning.translate import make_searcher
 from model.search.linked.engine import insert_linked, tie, write_back
 from model.search.linked.layout import Linked
 from model.search.problem_data import are_timed, make_data
-from model.search.route.engine import BY_FAR, missing_cost
+from model.search.route.engine import BY_FAR, anneal, missing_cost
 from model.solution import Route, Solution
 from tests.model.search.found import INFEASIBLE, beside_neighbours, copied, read_plan
 from training.instances import generate
@@ -32,7 +33,8 @@ def without(routes: tuple[Route, ...], node: int) -> tuple[Route, ...]:
     return tuple(found)
 
 
-def test_no_cheaper_place_beside_a_neighbour_is_passed_over() -> None:
+@pytest.mark.parametrize("is_linked", [True, False])
+def test_no_cheaper_place_beside_a_neighbour_is_passed_over(is_linked: bool) -> None:
     problem = generate(np.random.default_rng(17), MANY, "cvrp")
     data = make_data(problem, pack([problem]))
     data = data._replace(strategy=data.strategy._replace(blink=0.0))
@@ -50,7 +52,10 @@ def test_no_cheaper_place_beside_a_neighbour_is_passed_over() -> None:
         write_back(data, searcher, linked)
         cost = searcher.value.cost - missing_cost(data, searcher)
         least = beside_neighbours(data, routes, int(node))
-        insert_linked(data, searcher, linked, BY_FAR)
+        if is_linked:
+            insert_linked(data, searcher, linked, BY_FAR)
+        else:
+            anneal(data, searcher, 1, BY_FAR)
         assert searcher.count.missing == 0
         assert searcher.value.cost - cost <= least + 1e-6
         found += least < np.inf
