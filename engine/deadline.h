@@ -1,7 +1,6 @@
 // When work has to end: at an instant, or once whoever asked for it wants no more.
 #pragma once
 
-#include <cstdint>
 #include <ctime>
 
 #include "guard.h"

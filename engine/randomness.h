@@ -13,12 +13,12 @@ inline double uniform(View<std::uint64_t, 1> state) {
     z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9U;
     z = (z ^ (z >> 27)) * 0x94D049BB133111EBU;
     z = z ^ (z >> 31);
-    return static_cast<double>(z >> 11) * 0x1p-53;
+    return double(z >> 11) * 0x1p-53;
 }
 
 // Draw a whole number from 0 to `bound - 1`. In place.
 inline Int below(View<std::uint64_t, 1> state, Int bound) {
-    return static_cast<Int>(uniform(state) * static_cast<double>(bound));
+    return Int(uniform(state) * double(bound));
 }
 
 }  // namespace tandem

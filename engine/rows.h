@@ -1,8 +1,6 @@
 // Rows that the engine owns, of zeros until something is written.
 #pragma once
 
-#include <array>
-#include <cstdint>
 #include <memory>
 
 #include "view.h"
@@ -43,7 +41,7 @@ private:
 
     static std::size_t bytes_of(const std::array<std::int64_t, N>& shape) {
         std::size_t bytes = sizeof(T);
-        for (const std::int64_t axis : shape) bytes *= static_cast<std::size_t>(axis);
+        for (const std::int64_t axis : shape) bytes *= std::size_t(axis);
         return bytes;
     }
 

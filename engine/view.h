@@ -24,7 +24,7 @@ class Outside : public std::exception {};
 
 // Throws at an index outside an array, in all builds.
 inline void ensure_index(std::int64_t index, std::int64_t size) {
-    if (static_cast<std::uint64_t>(index) >= static_cast<std::uint64_t>(size)) [[unlikely]] {
+    if (std::uint64_t(index) >= std::uint64_t(size)) [[unlikely]] {
         found_outside();
     }
 }
@@ -120,7 +120,7 @@ public:
 private:
     template <class... Index>
     std::int64_t offset(Index... index) const {
-        const std::array<std::int64_t, N> at{static_cast<std::int64_t>(index)...};
+        const std::array<std::int64_t, N> at{std::int64_t(index)...};
         std::int64_t place = 0;
         for (std::size_t axis = 0; axis < N; ++axis) {
             check_index(at[axis], shape_[axis]);

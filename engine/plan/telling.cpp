@@ -73,7 +73,7 @@ void RouteTeller::rest_as_stated(Int stop, const ToldLeg& leg) {
 
 void RouteTeller::rest(Int stop, Rests rests, Int index, const RestTimes& times) {
     ++numbers_[trip_ + 4];
-    const Int number = rests.number(index), place = static_cast<Int>(rests.place(index));
+    const Int number = rests.number(index), place = Int(rests.place(index));
     add({is_stated(number) ? number : unstated, stop, place, times.stood, times.start, times.end});
 }
 
@@ -90,6 +90,5 @@ int tandem_close_plan(tandem_plan* plan) {
 }
 
 int tandem_numbers_of(tandem_plan* plan, tandem_i64_1d* numbers) {
-    return guarded(
-        [&] { *numbers = {plan->numbers.data(), {static_cast<Int>(plan->numbers.size())}}; });
+    return guarded([&] { *numbers = {plan->numbers.data(), {Int(plan->numbers.size())}}; });
 }

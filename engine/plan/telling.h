@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "rules/driving.h"
-#include "rules/flight.h"
 #include "rules/flown_trip.h"
 
 // As C knows it.

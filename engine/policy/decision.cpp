@@ -1,7 +1,5 @@
 #include "policy/decision.h"
 
-#include <algorithm>
-#include <cstddef>
 #include <limits>
 
 #include "guard.h"
@@ -86,9 +84,9 @@ void raise_to_zero(Lanes& x) { x = larger(x, Lanes{}); }
 Decider::Decider(const StepWeights& weights, Int most)
     : weights_(weights),
       query_{},
-      action_(static_cast<std::size_t>(whole_blocks(most, abreast) * action_width)),
+      action_(std::size_t(whole_blocks(most, abreast) * action_width)),
       mixed_(action_.size()),
-      weight_(static_cast<std::size_t>(whole_blocks(most, abreast) * num_heads)) {}
+      weight_(std::size_t(whole_blocks(most, abreast) * num_heads)) {}
 
 // Ask from the present place and the state of the vehicle.
 void Decider::ask(Embedding memory, const Seen& seen) {

@@ -1,17 +1,8 @@
 #include "policy/features.h"
 
-#include <algorithm>
-
 #include "guard.h"
-#include "policy/lookahead.h"
 #include "policy/rarer.h"
-#include "rules/flight.h"
-#include "rules/load.h"
-#include "rules/pair.h"
-#include "rules/shift.h"
-#include "rules/window.h"
 #include "simulation/aboard.h"
-#include "simulation/meeting.h"
 #include "simulation/simulator.h"
 #include "simulation/vehicle_log.h"
 
@@ -24,14 +15,10 @@ constexpr double mm_per_km = 1'000'000;
 constexpr double furthest = 5;  // what ways and durations are clipped to, by the problem's unit
 constexpr Int most_trips = 4;   // trips left beyond these are not told apart
 
-double quotient(Int part, Int whole) {
-    return static_cast<double>(part) / static_cast<double>(whole);
-}
+double quotient(Int part, Int whole) { return double(part) / double(whole); }
 
 // Raise a feature to a value, if that is more.
-void raise(float& feature, double value) {
-    feature = to_float(std::max(static_cast<double>(feature), value));
-}
+void raise(float& feature, double value) { feature = to_float(std::max(double(feature), value)); }
 
 // The units of a problem.
 Unit unit_of(const Scales& scale, Int b) { return {scale.time[b], scale.near[b], scale.cost[b]}; }
@@ -117,16 +104,16 @@ void describe_customer(const Situation& now, Int node, const Outlook& outlook,
     feature.window_slack = to_float(left);
     if (some_limited(setting.max_time_aboard)) {
         const Int excess = excess_aboard(setting.max_time_aboard, node, since, outlook.start);
-        left = std::min(static_cast<double>(feature.window_slack), slack(0, excess, unit.time));
+        left = std::min(double(feature.window_slack), slack(0, excess, unit.time));
         feature.window_slack = to_float(left);
     }
     if (some_limited(setting.max_between) && is_delivery(setting.pair, node)) {
         const Int excess = excess_under_way(setting, log, node, outlook.start);
-        left = std::min(static_cast<double>(feature.window_slack), slack(0, excess, unit.time));
+        left = std::min(double(feature.window_slack), slack(0, excess, unit.time));
         feature.window_slack = to_float(left);
     }
-    const double hourly = static_cast<double>(late) * prices[node].lateness +
-                          static_cast<double>(wait) * prices[node].waiting;
+    const double hourly =
+        double(late) * prices[node].lateness + double(wait) * prices[node].waiting;
     const double once = once_late_cost(prices[node], place, outlook.arrival);
     feature.lateness = to_float(ratio(hourly / ms_per_hour + once, unit.cost));
     describe_demand(now, node, feature);
@@ -137,7 +124,7 @@ void describe_customer(const Situation& now, Int node, const Outlook& outlook,
     if (limits_travel(setting.type)) {
         const Int used = vehicle.legs.duration + travel_of(setting, vehicle.node, node) +
                          travel_of(setting, node, setting.type.ends_at);
-        left = std::min(static_cast<double>(feature.working_slack),
+        left = std::min(double(feature.working_slack),
                         slack(longest_travel(setting.type), used, unit.time));
         feature.working_slack = to_float(left);
     }
@@ -147,10 +134,9 @@ void describe_customer(const Situation& now, Int node, const Outlook& outlook,
 // Describe the way to a place, at a price per km and per hour.
 void describe_leg(const Unit& unit, Int duration, Int distance, double km, double hour,
                   ActionFeatures& feature) {
-    feature.duration = to_float(std::min(static_cast<double>(duration) / unit.time, furthest));
+    feature.duration = to_float(std::min(double(duration) / unit.time, furthest));
     feature.nearness = to_float(ratio(duration, unit.near));
-    const double cost = static_cast<double>(distance) / mm_per_km * km +
-                        static_cast<double>(duration) / ms_per_hour * hour;
+    const double cost = double(distance) / mm_per_km * km + double(duration) / ms_per_hour * hour;
     feature.cost = to_float(std::min(cost / unit.cost, furthest));
 }
 
@@ -162,16 +148,14 @@ void describe_drive(const Situation& now, Int node, ActionFeatures& feature) {
     const Int way = setting.drive(here, node), way_home = setting.drive(node, home);
     const Int used = vehicle.distance + distance(here, node) + distance(node, home);
     feature.distance_slack =
-        to_float(slack(longest_trip(type), used, static_cast<double>(distance(home, node))));
-    const double detour =
-        static_cast<double>(way + way_home - setting.drive(here, home)) / unit.time;
+        to_float(slack(longest_trip(type), used, double(distance(home, node))));
+    const double detour = double(way + way_home - setting.drive(here, home)) / unit.time;
     feature.detour = to_float(std::max(std::min(detour, furthest), -furthest));
     feature.excess = to_float(ratio(way - nearest, unit.near));
     const Int stops = stops_left(type, log, vehicle.idle != 0);
     if (stops >= unlimited) return;
-    feature.load_share = to_float(1.0 / static_cast<double>(std::max(Int{1}, stops)));
-    feature.capacity_share =
-        to_float(1.0 / static_cast<double>(std::max(Int{1}, most_stops(type))));
+    feature.load_share = to_float(1.0 / double(std::max(Int{1}, stops)));
+    feature.capacity_share = to_float(1.0 / double(std::max(Int{1}, most_stops(type))));
 }
 
 // Describe the flight to a customer, as if the drone came back here.
@@ -196,11 +180,11 @@ void describe_return(const Situation& now, ActionFeatures& feature) {
 // Describe opening a vehicle of a type of which so many are used already.
 void describe_open(const VehicleType& type, double fixed, Int used, double unserved,
                    const Unit& unit, ActionFeatures& feature) {
-    const auto left = static_cast<double>(type.count - used);
+    const auto left = double(type.count - used);
     feature.cost = to_float(ratio(fixed, unit.cost));
     feature.load_share = to_float(left / (left + 4.0));
     feature.capacity_share =
-        to_float(std::min(static_cast<double>(type.capacity[0]) / std::max(1.0, unserved), 2.0));
+        to_float(std::min(double(type.capacity[0]) / std::max(1.0, unserved), 2.0));
     feature.distance_slack = type.drones > 0 ? 1 : 0;
 }
 
@@ -226,10 +210,10 @@ double unserved_demand(const Instance& instance, const State& state, Int r) {
     double total = 0, picked = 0;
     for (Int node = size.depots; node < size.depots + size.customers; ++node) {
         if (served[node]) continue;
-        total += static_cast<double>(demand_of(nodes[node])[0]);
+        total += double(demand_of(nodes[node])[0]);
         // What is brought somewhere was picked up before.
         if (some_picked) {
-            picked += static_cast<double>(std::max(Int{0}, picked_of(amounts, node, 0)[0]));
+            picked += double(std::max(Int{0}, picked_of(amounts, node, 0)[0]));
         }
     }
     return std::max(total, picked);
@@ -241,8 +225,8 @@ double closed_reserve(const Instance& instance, const State& state, Int r) {
     double reserve = 0;
     for (Int k = 0; k < instance.size[b].types; ++k) {
         const VehicleType& type = instance.type(b, k);
-        reserve += static_cast<double>(type.count - state.used(r, k)) *
-                   static_cast<double>(type.max_trips) * static_cast<double>(type.capacity[0]);
+        reserve += double(type.count - state.used(r, k)) * double(type.max_trips) *
+                   double(type.capacity[0]);
     }
     return reserve;
 }
@@ -269,22 +253,22 @@ void describe_vehicle(const Scene& scene, const State& state, Int r, double unse
     const Vehicle& vehicle = state.vehicle[r];
     const VehicleType& type = instance.type(b, vehicle.type);
     const VehicleLog log = log_of(state.log, r);
-    const auto capacity = static_cast<double>(std::max(Int{1}, type.capacity[0]));
-    const auto free = static_cast<double>(room(type, vehicle));
+    const auto capacity = double(std::max(Int{1}, type.capacity[0]));
+    const auto free = double(room(type, vehicle));
     const bool idle = vehicle.idle != 0;
     const Int trips_left = type.max_trips - log.count.trips;
-    reserve += static_cast<double>(trips_left) * capacity;
+    reserve += double(trips_left) * capacity;
     Int clock = vehicle.next_start;
     if (!idle) {
         clock = std::max(vehicle.service_end, vehicle.free);
         const Int home = instance.duration[b][type.travel](vehicle.node, type.ends_at);
-        seen.way_home = to_float(std::min(static_cast<double>(home) / scale.time[b], furthest));
+        seen.way_home = to_float(std::min(double(home) / scale.time[b], furthest));
         reserve += free;
     }
     const Int working = log.count.trips > 0 ? clock - vehicle.departure_best : 0;
     seen.demand_by_reserve = to_float(std::min(unserved / std::max(1.0, reserve), 2.0));
     seen.idle = idle ? 1 : 0;
-    seen.clock = to_float(std::min(static_cast<double>(clock) / scale.horizon[b], 2.0));
+    seen.clock = to_float(std::min(double(clock) / scale.horizon[b], 2.0));
     seen.load_left = to_float(std::min(free / capacity, share_of_stops(type, log, idle)));
     seen.spare_reserve = to_float(std::max(std::min((reserve - unserved) / capacity, 2.0), -2.0));
     seen.trips_left = to_float(quotient(std::min(trips_left, most_trips), most_trips));
@@ -298,7 +282,7 @@ void describe_vehicle(const Scene& scene, const State& state, Int r, double unse
     const Unit unit = unit_of(scale, b);
     if (limits_travel(type)) {
         const double left = slack(longest_travel(type), vehicle.legs.duration, unit.time);
-        seen.working_slack = to_float(std::min(static_cast<double>(seen.working_slack), left));
+        seen.working_slack = to_float(std::min(double(seen.working_slack), left));
     }
     describe_duty(duty_of(instance, state, r, setting, unit, log), clock, seen);
 }
@@ -389,8 +373,8 @@ void describe_moves(const Instance& instance, const Scales& scale, const State& 
             describe_parting(duty, log.count.trips >= setting.type.max_trips, feature);
             continue;
         }
-        feature.way_home = to_float(std::min(
-            static_cast<double>(setting.drive(node, setting.type.ends_at)) / unit.time, furthest));
+        feature.way_home = to_float(
+            std::min(double(setting.drive(node, setting.type.ends_at)) / unit.time, furthest));
         if (kind == ActionKind::drive) describe_drive(now, node, feature);
         const Outlook& outlook = seen.outlook[index];
         const Candidate candidate{here, node, kind == ActionKind::launch, load, outlook};

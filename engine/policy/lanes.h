@@ -4,9 +4,6 @@
 // a C library, which differs from one to another.
 #pragma once
 
-#include <cstdint>
-#include <cstring>
-
 #include "vectors.h"
 
 namespace tandem {

@@ -1,11 +1,6 @@
 #include "policy/lookahead.h"
 
-#include <algorithm>
-
-#include "rules/flight.h"
-#include "rules/load.h"
 #include "rules/pair.h"
-#include "rules/window.h"
 
 namespace tandem {
 namespace {
@@ -16,7 +11,7 @@ constexpr Int num_prospects = 8;  // those that are timed
 // Clip a difference to three times `scale`, -1..1; 1 where there is nothing to compare.
 double excess(Int value, double scale) {
     if (value >= unlimited) return 1;
-    return std::max(std::min(static_cast<double>(value) / scale / 3.0, 1.0), -1.0);
+    return std::max(std::min(double(value) / scale / 3.0, 1.0), -1.0);
 }
 
 // Squash a duration; 1 where there is none.
@@ -111,8 +106,7 @@ void describe_drive(const Setting& setting, View<const Int, 1> neighbours,
     });
     feature.next_duration = to_float(soon(soonest, unit.near));
     feature.next_slack = to_float(slack(tightest, 0, unit.time));
-    feature.lost =
-        to_float(static_cast<double>(lost) / static_cast<double>(std::max(Int{1}, seen)));
+    feature.lost = to_float(double(lost) / double(std::max(Int{1}, seen)));
     feature.detour_before = to_float(excess(detour, unit.near));
     feature.later_duration = to_float(soon(later, unit.near));
 }

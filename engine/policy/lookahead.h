@@ -17,7 +17,7 @@ struct Unit {
 
 // Squash a length of any size to 0..1, half at `scale`.
 inline double ratio(double value, double scale) { return value > 0 ? value / (value + scale) : 0; }
-inline double ratio(Int value, double scale) { return ratio(static_cast<double>(value), scale); }
+inline double ratio(Int value, double scale) { return ratio(double(value), scale); }
 
 // Squash what a limit leaves to 0..1, half at `scale`; 1 where there is no limit.
 inline double slack(Int limit, Int used, double scale) {

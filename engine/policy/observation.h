@@ -12,6 +12,6 @@ using Scales = tandem_scales;
 using Observation = tandem_observation;
 using StepWeights = tandem_step_weights;
 
-inline float to_float(double value) { return static_cast<float>(value); }
+inline float to_float(double value) { return float(value); }
 
 }  // namespace tandem

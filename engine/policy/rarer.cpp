@@ -1,16 +1,7 @@
 #include "policy/rarer.h"
 
-#include <algorithm>
-#include <optional>
-
-#include "rules/breaks.h"
 #include "rules/company.h"
-#include "rules/driving.h"
 #include "rules/lag.h"
-#include "rules/load.h"
-#include "rules/pair.h"
-#include "rules/rates.h"
-#include "rules/window.h"
 #include "simulation/vehicle_log.h"
 
 namespace tandem {
@@ -124,8 +115,8 @@ void describe_duty(const Duty& duty, Int now, VehicleFeatures& feature) {
     feature.bound = to_float(few(num_bound(duty, vehicle.kept_on_trip, vehicle.kept_by_vehicle)));
     if (log.count.trips == 0) return;
     if (some_paired(setting.pair) && vehicle.idle == 0) {
-        const auto whole = static_cast<double>(std::max(Int{1}, capacity_in(type, 0)[0]));
-        feature.aboard = to_float(static_cast<double>(parcels_aboard(setting, log)) / whole);
+        const auto whole = double(std::max(Int{1}, capacity_in(type, 0)[0]));
+        feature.aboard = to_float(double(parcels_aboard(setting, log)) / whole);
     }
     double due = 0;
     if (has_breaks(type)) {

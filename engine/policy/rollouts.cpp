@@ -1,12 +1,8 @@
 #include "policy/rollouts.h"
 
-#include <algorithm>
-#include <memory>
 #include <numeric>
-#include <vector>
 
 #include "deadline.h"
-#include "guard.h"
 #include "randomness.h"
 #include "simulation/simulator.h"
 
@@ -19,7 +15,7 @@ constexpr Int given_up = -1;  // number of actions of a rollout that was not end
 
 // The least number of whole lanes' floats that so many fit in.
 std::size_t in_lanes(Int count) {
-    return static_cast<std::size_t>((count + num_lanes - 1) / num_lanes * num_lanes);
+    return std::size_t((count + num_lanes - 1) / num_lanes * num_lanes);
 }
 
 // Replace scores by weights in proportion to probabilities, that of the best being 1.
@@ -34,7 +30,7 @@ void weigh(std::vector<float>& scores, Int best, float temperature) {
         const Lanes one = Lanes::all(1.0F);
         store(scale * ((one - power) / (one + power)), &scores[i]);
     }
-    const float top = scores[static_cast<std::size_t>(best)];
+    const float top = scores[std::size_t(best)];
     for (std::size_t i = 0; i < scores.size(); i += num_lanes) {
         Lanes x;
         load(&scores[i], x);
@@ -61,8 +57,7 @@ private:
     class FreshRows {
     public:
         explicit FreshRows(Int size)
-            : data_(std::make_unique_for_overwrite<T[]>(static_cast<std::size_t>(size))),
-              size_(size) {}
+            : data_(std::make_unique_for_overwrite<T[]>(std::size_t(size))), size_(size) {}
 
         View<T, 1> view() { return {data_.get(), {size_}}; }
 
@@ -135,10 +130,10 @@ Int choose(std::vector<float>& scores, Int count, double temperature,
     const auto end = scores.begin() + count;
     const Int best = std::max_element(scores.begin(), end) - scores.begin();
     if (temperature <= 0) return best;
-    weigh(scores, best, static_cast<float>(temperature));
+    weigh(scores, best, float(temperature));
     double left = uniform(random) * std::accumulate(scores.begin(), end, 0.0);
     for (Int index = 0; index < count; ++index) {
-        left -= scores[static_cast<std::size_t>(index)];
+        left -= scores[std::size_t(index)];
         if (left < 0) return index;
     }
     return best;

@@ -2,7 +2,6 @@
 #pragma once
 
 #include "include/tandem.h"
-#include "view.h"
 
 namespace tandem {
 

@@ -4,13 +4,10 @@
 // it is ready to serve. They are taken in the order stated, each as soon as its window opens.
 #pragma once
 
-#include <algorithm>
 #include <optional>
 
-#include "problem/instance.h"
 #include "rules/clock.h"
 #include "rules/load.h"
-#include "rules/window.h"
 
 namespace tandem {
 
@@ -68,7 +65,7 @@ public:
 
     // These, and then another break.
     Rests with(Int number, RestPlace place) const {
-        const Int more = number | static_cast<Int>(place) << 4;
+        const Int more = number | Int(place) << 4;
         return Rests((packed_ + 1) | more << shift(count()));
     }
 

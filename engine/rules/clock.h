@@ -4,8 +4,6 @@
 // type says.
 #pragma once
 
-#include <algorithm>
-
 #include "problem/instance.h"
 
 namespace tandem {

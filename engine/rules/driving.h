@@ -7,9 +7,6 @@
 // leaves, where it arrives, or on its way, then as late as the rules allow.
 #pragma once
 
-#include <algorithm>
-
-#include "problem/instance.h"
 #include "rules/breaks.h"
 #include "rules/shift.h"
 

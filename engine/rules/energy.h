@@ -2,8 +2,6 @@
 // asked of it than it held.
 #pragma once
 
-#include <algorithm>
-
 #include "problem/instance.h"
 
 namespace tandem {

@@ -2,8 +2,6 @@
 // many are too few.
 #pragma once
 
-#include <algorithm>
-
 #include "problem/instance.h"
 
 namespace tandem {
@@ -37,7 +35,7 @@ inline Shares shares_before(const Fairness& fairness) {
 
 // What a vehicle of a type has done before of the work.
 inline double share_before(const VehicleType& type) {
-    return static_cast<double>(std::max(Int{0}, type.share_before));
+    return double(std::max(Int{0}, type.share_before));
 }
 
 // All with one vehicle more.
@@ -72,7 +70,7 @@ inline double imbalance(const Shares& shares) {
 
 // How many vehicles fewer are used than have to be.
 inline double too_few(const Fairness& fairness, const Shares& shares) {
-    return std::max(0.0, static_cast<double>(fairness.min_vehicles) - shares.count);
+    return std::max(0.0, double(fairness.min_vehicles) - shares.count);
 }
 
 // By how much at most what tells plans apart counts that end at the same time, by that.
@@ -82,12 +80,12 @@ constexpr double tie_share = 0.02;
 inline double tie_of(const Shares& shares) {
     if (shares.latest <= 0) return 0.0;
     const double vehicles = std::max(1.0, shares.count);
-    return tie_share * shares.ends / (vehicles * static_cast<double>(shares.latest));
+    return tie_share * shares.ends / (vehicles * double(shares.latest));
 }
 
 // What a plan costs as a whole.
 inline double fairness_cost(const Fairness& fairness, const Shares& shares) {
-    return fairness.makespan * (static_cast<double>(shares.latest) + tie_of(shares)) +
+    return fairness.makespan * (double(shares.latest) + tie_of(shares)) +
            fairness.balance * imbalance(shares) + fairness.too_few * too_few(fairness, shares);
 }
 

@@ -3,11 +3,8 @@
 // `launched` is how many launches of the trip come before one.
 #pragma once
 
-#include <algorithm>
-
 #include "rules/energy.h"
 #include "rules/load.h"
-#include "rules/window.h"
 
 namespace tandem {
 

@@ -4,12 +4,7 @@
 // Legs hold the launch where they leave a depot, and the recovery where they come to one.
 #pragma once
 
-#include <algorithm>
-
-#include "rules/energy.h"
 #include "rules/flight.h"
-#include "rules/load.h"
-#include "rules/window.h"
 
 namespace tandem {
 

@@ -3,9 +3,7 @@
 // Types whose shift keeps all of that anyway look at no hours.
 #pragma once
 
-#include "rules/flight.h"
 #include "rules/flown_trip.h"
-#include "rules/window.h"
 
 namespace tandem {
 

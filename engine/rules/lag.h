@@ -5,8 +5,6 @@
 // Lags across vehicles may be behind `since_plan_start`, by who was served before there was a plan.
 #pragma once
 
-#include <algorithm>
-
 #include "problem/instance.h"
 
 namespace tandem {

@@ -2,7 +2,6 @@
 // same operations in the same order, none of them fused.
 #include "rules/leg.h"
 
-#include <array>
 #include <cmath>
 #include <numbers>
 #include <utility>
@@ -111,11 +110,11 @@ Int ceiled_ms(double duration) {
     if (duration >= coarse_ms) {
         noise = std::max(noise, 2.0 * (std::nextafter(duration, HUGE_VAL) - duration));
     }
-    return static_cast<Int>(std::ceil(duration - noise));
+    return Int(std::ceil(duration - noise));
 }
 
 // A distance in whole millimetres.
-Int rounded_mm(double metres) { return static_cast<Int>(std::nearbyint(metres * mm_per_m)); }
+Int rounded_mm(double metres) { return Int(std::nearbyint(metres * mm_per_m)); }
 
 }  // namespace
 

@@ -5,8 +5,6 @@
 // goes into getting them from memory.
 #pragma once
 
-#include <algorithm>
-
 #include "problem/instance.h"
 
 namespace tandem {

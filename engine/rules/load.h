@@ -7,9 +7,6 @@
 // `StopLoad`.
 #pragma once
 
-#include <algorithm>
-#include <array>
-
 #include "rules/window.h"
 
 namespace tandem {

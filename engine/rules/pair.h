@@ -2,9 +2,6 @@
 // to the other on the same trip, later; and places of one customer, of which one is used.
 #pragma once
 
-#include <algorithm>
-#include <array>
-
 #include "rules/window.h"
 
 namespace tandem {

@@ -16,13 +16,11 @@ constexpr Units ms_and_mm{1.0, 1.0};                     // as the search adds t
 
 // What the truck's drives cost.
 inline double drive_cost(const Rate& rate, Int distance, Units units = ms_and_mm) {
-    return static_cast<double>(distance) / units.distance * rate.distance;
+    return double(distance) / units.distance * rate.distance;
 }
 
 // What it costs that the truck serves so many customers itself.
-inline double stops_cost(const Rate& rate, Int stops) {
-    return static_cast<double>(stops) * rate.stop;
-}
+inline double stops_cost(const Rate& rate, Int stops) { return double(stops) * rate.stop; }
 
 // What a vehicle costs that makes one such trip, but for its work.
 inline double trip_cost(const Rate& rate, Int distance, Int stops) {
@@ -42,12 +40,12 @@ inline double load_cost(const Rate& rate, double carried, Units units = ms_and_m
 
 // What the way that drones fly costs, by the row of their type.
 inline double flown_cost(const Rate& rate, Int distance, Units units = ms_and_mm) {
-    return static_cast<double>(distance) / units.distance * rate.drone_distance;
+    return double(distance) / units.distance * rate.drone_distance;
 }
 
 // What it costs that drones are in the air so long, from take-off to the end of recovery.
 inline double airborne_cost(const Rate& rate, Int duration, Units units = ms_and_mm) {
-    return static_cast<double>(duration) / units.duration * rate.drone_time;
+    return double(duration) / units.duration * rate.drone_time;
 }
 
 // What it costs once to arrive behind the window.
@@ -58,7 +56,7 @@ inline double once_late_cost(const Price& price, Windows place, Int arrival) {
 // What an arrival behind the window costs.
 inline double lateness_cost(const Price& price, Windows place, Int arrival,
                             Units units = ms_and_mm) {
-    return static_cast<double>(place.lateness(arrival)) / units.duration * price.lateness +
+    return double(place.lateness(arrival)) / units.duration * price.lateness +
            once_late_cost(price, place, arrival);
 }
 
@@ -70,7 +68,7 @@ inline bool times_cost(const Price& price) {
 // What it costs to wait for the window.
 inline double waiting_cost(const Price& price, Windows place, Int arrival,
                            Units units = ms_and_mm) {
-    return static_cast<double>(place.waiting(arrival)) / units.duration * price.waiting;
+    return double(place.waiting(arrival)) / units.duration * price.waiting;
 }
 
 // The same of several at once, whole numbers of ms and mm.

@@ -6,7 +6,6 @@
 // paid know what work costs by, too; that is chosen where one is made, and takes no time elsewhere.
 #pragma once
 
-#include <algorithm>
 #include <optional>
 
 #include "rules/window.h"

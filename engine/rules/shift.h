@@ -2,12 +2,9 @@
 // end and of the working duration are those with all the overtime allowed.
 #pragma once
 
-#include <algorithm>
-
 #include "rules/clock.h"
 #include "rules/leg.h"
 #include "rules/rates.h"
-#include "vectors.h"
 
 namespace tandem {
 
@@ -35,7 +32,7 @@ inline PaidWork operator-(const PaidWork& one, const PaidWork& other) {
 
 // What work costs that is within what is usual.
 inline double usual_work_cost(const Rate& rate, Int duration, Units units = ms_and_mm) {
-    return static_cast<double>(duration) / units.duration * rate.time;
+    return double(duration) / units.duration * rate.time;
 }
 
 // The same of several at once, in whole ms.
@@ -47,7 +44,7 @@ Vector<double, length> usual_work_cost(const Rate& rate, const Vector<double, le
 // What work costs.
 inline WorkCost terms_of_work(const Rate& rate, const PaidWork& work, Units units = ms_and_mm) {
     return {usual_work_cost(rate, work.duration, units),
-            static_cast<double>(work.overtime) / units.duration * rate.overtime};
+            double(work.overtime) / units.duration * rate.overtime};
 }
 
 // The sum of what work costs.

@@ -1,8 +1,6 @@
 // When a vehicle that may be under way leaves where it begins, and since when it works.
 #pragma once
 
-#include <algorithm>
-
 #include "problem/instance.h"
 
 namespace tandem {

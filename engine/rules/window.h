@@ -4,8 +4,6 @@
 // window is can change here alone.
 #pragma once
 
-#include <algorithm>
-
 #include "problem/instance.h"
 
 namespace tandem {

@@ -6,12 +6,8 @@
 // the smallest such parts of the plan as it is take their places in the best one wherever they cost
 // less; the search goes on as it would have. Where that would take too many vehicles or batteries,
 // those parts alone are taken that need no more of any.
-#include <algorithm>
-#include <array>
 
-#include "guard.h"
 #include "rules/company.h"
-#include "rules/pair.h"
 #include "search/route/hubs.h"
 #include "search/route/lags.h"
 #include "search/route/state.h"
@@ -97,7 +93,7 @@ void Recombination::join_all() {
         if (data_.goods.empty()) continue;
         for (Int kept = kept_by_vehicle(data_.goods[node]), bit = 0; kept != 0; kept >>= 1, ++bit) {
             if ((kept & 1) == 0) continue;
-            Int& other = company.at(static_cast<std::size_t>(bit));
+            Int& other = company.at(std::size_t(bit));
             if (other != nowhere) join(number, other);
             other = number;
         }

@@ -1,12 +1,8 @@
 #include "search/scratch.h"
 
-#include <algorithm>
-#include <limits>
 #include <utility>
 
-#include "rules/drone_types.h"
 #include "search/insertion/offers.h"
-#include "search/route/rarer.h"
 
 namespace tandem {
 namespace {

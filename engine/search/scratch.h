@@ -1,11 +1,7 @@
 // What a search writes down while it looks, and forgets.
 #pragma once
 
-#include <array>
-#include <memory>
-
 #include "search/moves/operation_row.h"
-#include "search/route/layout.h"
 
 namespace tandem {
 
@@ -26,7 +22,7 @@ template <class T>
 class Row {
 public:
     explicit Row(Int size)
-        : room_(std::make_unique_for_overwrite<T[]>(static_cast<std::size_t>(size))),
+        : room_(std::make_unique_for_overwrite<T[]>(std::size_t(size))),
           view_(room_.get(), {size}) {}
 
     View<T, 1> view() const { return view_; }

@@ -1,10 +1,7 @@
 // Routes shared between threads: a region for each, or the cheapest of all for everyone.
-#include <algorithm>
 #include <vector>
 
-#include "guard.h"
 #include "rules/hub.h"
-#include "rules/pair.h"
 #include "search/route/fairness.h"
 #include "search/route/hubs.h"
 #include "search/route/refresh.h"

@@ -3,7 +3,6 @@
 
 #include <atomic>
 #include <bit>
-#include <cstdint>
 
 #include "search/route/layout.h"
 
@@ -23,7 +22,7 @@ inline void trace_priced([[maybe_unused]] double cost, [[maybe_unused]] const Mo
     if constexpr (is_traced) {
         std::uint64_t mixed = std::bit_cast<std::uint64_t>(cost);
         const auto mix = [&](Int part) {
-            mixed = (mixed ^ static_cast<std::uint64_t>(part)) * 0x9E3779B97F4A7C15U;
+            mixed = (mixed ^ std::uint64_t(part)) * 0x9E3779B97F4A7C15U;
             mixed ^= mixed >> 29;
         };
         mix(0);

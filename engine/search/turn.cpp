@@ -1,11 +1,9 @@
 #include "search/turn.h"
 
-#include <algorithm>
 #include <cmath>
 #include <utility>
 
 #include "randomness.h"
-#include "rules/pair.h"
 #include "search/route/refresh.h"
 #include "search/route/state.h"
 
@@ -101,8 +99,7 @@ double cost_to_insert(const ProblemData& data, const Searcher& searcher, double 
 
 double turn_cost(const ProblemData& data, const Searcher& searcher, double served) {
     const SearchCounts& count = *searcher.count;
-    const double fewer_or_more =
-        static_cast<double>(count.absent - count.missing) * data.unassigned_cost;
+    const double fewer_or_more = double(count.absent - count.missing) * data.unassigned_cost;
     const double others = unassigned_more(data, searcher.absent, count.absent) -
                           unassigned_more(data, searcher.missing, count.missing);
     return served + (fewer_or_more + others);

@@ -6,7 +6,6 @@
 #pragma once
 
 #include "rules/breaks.h"
-#include "rules/load.h"
 #include "simulation/state.h"
 
 namespace tandem {

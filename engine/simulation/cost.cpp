@@ -1,9 +1,6 @@
 #include "simulation/cost.h"
 
 #include "rules/drone_types.h"
-#include "rules/load.h"
-#include "rules/pair.h"
-#include "rules/shift.h"
 #include "simulation/vehicle_log.h"
 
 namespace tandem {
@@ -57,7 +54,7 @@ double load_distance(View<const Int, 2> legs, const Setting& setting, const Vehi
             }
         }
         const Int leg = legs(log.stop[index].node, log.stop[index + 1].node);
-        carried += static_cast<double>(load) * static_cast<double>(leg);
+        carried += double(load) * double(leg);
     }
     return carried;
 }

@@ -1,17 +1,8 @@
 #include "simulation/meeting.h"
 
-#include <algorithm>
-#include <optional>
-
-#include "rules/breaks.h"
-#include "rules/driving.h"
 #include "rules/drone_types.h"
-#include "rules/energy.h"
-#include "rules/flight.h"
 #include "rules/hours.h"
 #include "rules/launch_place.h"
-#include "rules/pair.h"
-#include "rules/shift.h"
 #include "simulation/aboard.h"
 #include "simulation/lags.h"
 #include "simulation/vehicle_log.h"
@@ -41,7 +32,7 @@ void mark_places(const Setting& setting, View<Drone, 1> drones, Int here, Int to
             place = meets ? Recovery::meet : Recovery::loop;
             if (meets) --room;
         }
-        drone.place = static_cast<Int>(place);
+        drone.place = Int(place);
     }
 }
 
@@ -209,7 +200,7 @@ Int meet(const Setting& setting, View<Drone, 1> drones, Int here, Int to, Int ar
          landed = next_back(drones, Recovery::meet)) {
         free = bring_aboard(setting, drones[landed], here, to, free);
         if (free < 0) {
-            drones[landed].place = static_cast<Int>(Recovery::loop);
+            drones[landed].place = Int(Recovery::loop);
             return -1;
         }
     }

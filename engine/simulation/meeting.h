@@ -16,9 +16,7 @@ constexpr Int no_vehicle = -1;  // type of the open vehicle before the first ope
 // Where a drone is to be recovered: nowhere, at the next stop, at this stop.
 enum class Recovery : Int { aboard, meet, loop };
 
-inline bool is_recovered(const Drone& drone, Recovery place) {
-    return drone.place == static_cast<Int>(place);
-}
+inline bool is_recovered(const Drone& drone, Recovery place) { return drone.place == Int(place); }
 
 inline bool is_aboard(const Drone& drone) { return is_recovered(drone, Recovery::aboard); }
 

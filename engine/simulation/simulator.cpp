@@ -1,23 +1,14 @@
 #include "simulation/simulator.h"
 
-#include <algorithm>
-#include <optional>
 #include <vector>
 
 #include "guard.h"
-#include "rules/clock.h"
 #include "rules/company.h"
-#include "rules/driving.h"
-#include "rules/flight.h"
 #include "rules/hours.h"
 #include "rules/lag.h"
-#include "rules/load.h"
-#include "rules/pair.h"
-#include "rules/shift.h"
 #include "rules/start.h"
 #include "simulation/aboard.h"
 #include "simulation/hubs.h"
-#include "simulation/transition.h"
 #include "simulation/trial.h"
 #include "simulation/vehicle_log.h"
 
@@ -390,7 +381,7 @@ void finish(const Instance& instance, State& state, Int r) {
     if (state.vehicle[r].type != no_vehicle) close_vehicle(instance, state, r);
     const Int b = state.problem[r];
     double& unassigned = state.cost[r].unassigned;
-    unassigned += static_cast<double>(state.num_unserved[r]) * instance.unassigned_cost[b];
+    unassigned += double(state.num_unserved[r]) * instance.unassigned_cost[b];
     if (state.num_unserved[r] > 0) {
         const Size& size = instance.size[b];
         for (Int node = size.depots; node < size.depots + size.customers; ++node) {
@@ -407,14 +398,14 @@ void mark_fresh(const Instance& instance, State& state, Int scratch) {
     for (Int b = 0; b < instance.size.size(); ++b) {
         state.problem[row] = b;
         const Int most = 2 * instance.size[b].customers + 1;
-        actions.resize(static_cast<std::size_t>(most));
-        outlooks.resize(static_cast<std::size_t>(most));
+        actions.resize(std::size_t(most));
+        outlooks.resize(std::size_t(most));
         for (Int k = 0; k < instance.size[b].types; ++k) {
             open_vehicle(instance, state, row, k);
             const Int found = legal_services({instance, state, row, scratch},
                                              {actions.data(), {most}}, {outlooks.data(), {most}});
             for (Int index = 0; index < found; ++index) {
-                state.fresh(b, k, target_of(actions[static_cast<std::size_t>(index)])) = true;
+                state.fresh(b, k, target_of(actions[std::size_t(index)])) = true;
             }
         }
     }

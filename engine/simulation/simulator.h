@@ -10,7 +10,6 @@
 #pragma once
 
 #include "simulation/meeting.h"
-#include "simulation/state.h"
 
 namespace tandem {
 
@@ -19,9 +18,7 @@ enum class ActionKind : Int { drive, launch, end_trip, open };
 constexpr Int num_kinds = 4;
 
 // The code of an action; `target` is a customer's node, a depot's node or a type.
-constexpr Int encode_action(ActionKind kind, Int target) {
-    return target * num_kinds + static_cast<Int>(kind);
-}
+constexpr Int encode_action(ActionKind kind, Int target) { return target * num_kinds + Int(kind); }
 
 constexpr ActionKind kind_of(Int action) { return static_cast<ActionKind>(action % num_kinds); }
 

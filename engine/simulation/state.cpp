@@ -1,7 +1,4 @@
-#include "simulation/state.h"
 
-#include <algorithm>
-#include <memory>
 
 #include "guard.h"
 #include "simulation/simulator.h"

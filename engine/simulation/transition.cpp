@@ -1,16 +1,10 @@
 #include "simulation/transition.h"
 
-#include <algorithm>
 #include <utility>
 
-#include "rules/breaks.h"
-#include "rules/driving.h"
 #include "rules/drone_types.h"
-#include "rules/flight.h"
 #include "rules/holding.h"
 #include "rules/hours.h"
-#include "rules/load.h"
-#include "rules/shift.h"
 #include "rules/start.h"
 #include "simulation/aboard.h"
 #include "simulation/cost.h"
@@ -50,7 +44,7 @@ void log_recoveries(const Setting& setting, VehicleLog& log, View<Drone, 1> dron
         sortie.recovery_end = recovery_end(setting.types[chosen->row], chosen->recovery);
         sortie.left = chosen->left;
         log_op(log, stop, chosen->sortie, true);
-        chosen->place = static_cast<Int>(Recovery::aboard);
+        chosen->place = Int(Recovery::aboard);
         chosen->sortie = in_flight;
     }
 }

@@ -1,16 +1,10 @@
 #include "simulation/trial.h"
 
-#include <algorithm>
 #include <utility>
 #include <vector>
 
-#include "rules/breaks.h"
 #include "rules/company.h"
-#include "rules/load.h"
-#include "rules/pair.h"
-#include "rules/shift.h"
 #include "simulation/hubs.h"
-#include "simulation/transition.h"
 #include "simulation/vehicle_log.h"
 
 namespace tandem {
@@ -234,7 +228,7 @@ bool is_within_reach(const OpenVehicle& open, View<const Int, 2> legs, TripProgr
     }
     return way.distance + legs(here, type.ends_at) <= longest_trip(type) &&
            may_drive_home(open.setting, way.legs, here) &&
-           allows_stops(type, served_on_trip(open.log) + static_cast<Int>(order.size()));
+           allows_stops(type, served_on_trip(open.log) + Int(order.size()));
 }
 
 // Tell whether who has been served lets a customer come next.

@@ -1,16 +1,10 @@
 #include "simulation/vehicle_log.h"
 
-#include <algorithm>
-#include <optional>
 #include <vector>
 
 #include "rules/drone_types.h"
-#include "rules/energy.h"
-#include "rules/flight.h"
 #include "rules/holding.h"
 #include "rules/hours.h"
-#include "rules/load.h"
-#include "rules/shift.h"
 #include "rules/start.h"
 #include "simulation/lags.h"
 #include "simulation/meeting.h"
@@ -147,7 +141,7 @@ class Replay {
 public:
     Replay(const Setting& setting, const VehicleLog& log) : setting_(setting), log_(log) {
         if (some_limited(setting.max_between)) {
-            served_.resize(static_cast<std::size_t>(log.count.stops));
+            served_.resize(std::size_t(log.count.stops));
         }
         if (!setting.lag.empty()) {
             for (const LoggedStop& stop : log.stop.first(log.count.stops)) {
@@ -158,7 +152,7 @@ public:
             }
         }
         if (bounds_trips(setting.type)) {
-            waits_.resize(static_cast<std::size_t>(log.count.stops));
+            waits_.resize(std::size_t(log.count.stops));
         }
     }
 
@@ -190,19 +184,16 @@ public:
 private:
     // When service begins, as tried.
     auto starts() const {
-        const auto of_stop = [this](Int index) { return starts_[static_cast<std::size_t>(index)]; };
-        const auto of_sortie = [this](Int index) {
-            return flown_[static_cast<std::size_t>(index)];
-        };
+        const auto of_stop = [this](Int index) { return starts_[std::size_t(index)]; };
+        const auto of_sortie = [this](Int index) { return flown_[std::size_t(index)]; };
         return Starts<decltype(of_stop), decltype(of_sortie)>{log_, of_stop, of_sortie};
     }
 
     // Whether a trip that was begun at `start` lasts in the air; when writing, that is noted.
     bool lasts(Int trip, Int start) {
         const VehicleType& type = setting_.type;
-        const FlownTrip flown = follow_trip(setting_, log_, trip, [&](Int index) {
-            return waits_[static_cast<std::size_t>(index)];
-        });
+        const FlownTrip flown = follow_trip(setting_, log_, trip,
+                                            [&](Int index) { return waits_[std::size_t(index)]; });
         // In the calm that is known, if that counts, so that all between is allowed as well.
         const Int known = writes ? start : log_.trip[trip].start;
         bool done = leave_ - start <= longest_in_air(type) &&
@@ -265,11 +256,11 @@ private:
                 before = stop.start;
             }
             service_start = place.start_of_service(ready);
-            if (!waits_.empty()) waits_[static_cast<std::size_t>(index)] = service_start - arrival;
+            if (!waits_.empty()) waits_[std::size_t(index)] = service_start - arrival;
             if (!is_allowed(place, ready, before)) return false;
             if (!writes && aboard_too_long(stop.node, departure_, service_start)) return false;
             leave_ = place.end_of_service(ready);
-            if (!starts_.empty()) starts_[static_cast<std::size_t>(index)] = service_start;
+            if (!starts_.empty()) starts_[std::size_t(index)] = service_start;
             if (!served_.empty() && !note_served(index, service_start)) return false;
         }
         free_ = busy_ = there;
@@ -293,7 +284,7 @@ private:
     // Note when somebody is served; false if a shipment that is delivered was under way too long.
     bool note_served(Int index, Int start) {
         const Int node = log_.stop[index].node;
-        served_[static_cast<std::size_t>(index)] = start + setting_.node[node].service_duration();
+        served_[std::size_t(index)] = start + setting_.node[node].service_duration();
         return writes || is_brought_soon(node, index, start);
     }
 
@@ -303,7 +294,7 @@ private:
         for (Int before = index - 1; before >= first_; --before) {
             const Int pickup = log_.stop[before].node;
             if (!brings(setting_.pair, pickup, node)) continue;
-            const Int left = served_[static_cast<std::size_t>(before)];
+            const Int left = served_[std::size_t(before)];
             if (excess_between(setting_.max_between, pickup, left, start) > 0) return false;
         }
         for (const LoggedSortie& sortie : log_.sortie.first(log_.count.sorties)) {
@@ -353,7 +344,7 @@ private:
         const Int served = place.end_of_service(arrival);
         sortie.trial_takeoff = takeoff;
         sortie.trial_ready = served;
-        if (!flown_.empty()) flown_[static_cast<std::size_t>(index)] = start;
+        if (!flown_.empty()) flown_[std::size_t(index)] = start;
         if constexpr (writes) {
             sortie.takeoff = takeoff;
             sortie.arrival = arrival;

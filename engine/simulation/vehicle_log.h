@@ -5,13 +5,9 @@
 // a trip that costs nothing elsewhere.
 #pragma once
 
-#include "rules/breaks.h"
-#include "rules/clock.h"
 #include "rules/driving.h"
 #include "rules/flown_trip.h"
 #include "rules/pair.h"
-#include "rules/shift.h"
-#include "rules/window.h"
 #include "simulation/state.h"
 
 namespace tandem {

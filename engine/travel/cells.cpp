@@ -2,7 +2,6 @@
 //
 // Friedman, Bentley and Finkel (1977), an algorithm for finding best matches in logarithmic
 // expected time, ACM Transactions on Mathematical Software 3:209-226.
-#include <algorithm>
 #include <limits>
 #include <tuple>
 #include <utility>
@@ -58,7 +57,7 @@ double to_point(const Cells& cells, Int place, Int other) {
 class Finder {
 public:
     Finder(const Cells& cells, Int ranks)
-        : cells_(cells), ranks_(ranks), found_(static_cast<std::size_t>(ranks + spare)) {}
+        : cells_(cells), ranks_(ranks), found_(std::size_t(ranks + spare)) {}
 
     // The points nearest to that in a place, nearest first; of those equally far, lower numbers
     // come first.
@@ -93,7 +92,7 @@ private:
         for (Int beside = cells_.first[cell]; beside < cells_.last[cell]; ++beside) {
             const double square = to_point(cells_, place, beside);
             if (!(square < reach_) || beside == place) continue;
-            found_[static_cast<std::size_t>(count_++)] = {square, cells_.number[beside]};
+            found_[std::size_t(count_++)] = {square, cells_.number[beside]};
             if (count_ < ranks_ + spare) continue;
             part();
             count_ = ranks_;
@@ -143,7 +142,7 @@ void write_nearest_in(const Cells& cells, Int begin, Int end, View<std::int32_t,
         const std::vector<Found>& found = finder.nearest(place);
         const View<std::int32_t, 1> row = nearest[cells.number[place]];
         for (Int rank = 0; rank < row.size(); ++rank) {
-            row[rank] = found[static_cast<std::size_t>(rank)].number;
+            row[rank] = found[std::size_t(rank)].number;
         }
     }
 }

@@ -3,7 +3,6 @@
 // A flight that is not straight goes from its origin to a corner, from corner to corner, and from a
 // corner to its target. Who sees whom is a table of rows of different lengths: the entries of row
 // `i` are those from `begin[i]` up to `begin[i + 1]`.
-#include <algorithm>
 #include <limits>
 #include <span>
 #include <tuple>
@@ -64,7 +63,7 @@ public:
         : buckets_(num_buckets), per_second_(longest > 0 ? (num_buckets - 2) / longest : 0.0) {}
 
     void push(double time, Int corner) {
-        const auto bucket = static_cast<Int>(time * per_second_);
+        const auto bucket = Int(time * per_second_);
         if (bucket > now_) {
             at(bucket).push_back({time, corner});
             ++waiting_;
@@ -88,7 +87,7 @@ public:
         while (soon_.empty()) {
             if (waiting_ == 0) return false;
             std::swap(soon_, at(++now_));
-            waiting_ -= static_cast<Int>(soon_.size());
+            waiting_ -= Int(soon_.size());
             std::make_heap(soon_.begin(), soon_.end());
         }
         std::pop_heap(soon_.begin(), soon_.end());
@@ -100,9 +99,7 @@ public:
 private:
     static constexpr Int num_buckets = 4096;
 
-    std::vector<Arrival>& at(Int bucket) {
-        return buckets_[static_cast<std::size_t>(bucket % num_buckets)];
-    }
+    std::vector<Arrival>& at(Int bucket) { return buckets_[std::size_t(bucket % num_buckets)]; }
 
     std::vector<std::vector<Arrival>> buckets_;
     std::vector<Arrival> soon_;  // a heap, of the bucket whose time has come
@@ -128,21 +125,21 @@ public:
     };
 
     Beholders(const Sights& inward, std::size_t num_corners) : begin_(num_corners + 1) {
-        for (const Int corner : inward.place) ++begin_[static_cast<std::size_t>(corner) + 1];
+        for (const Int corner : inward.place) ++begin_[std::size_t(corner) + 1];
         for (std::size_t corner = 1; corner < begin_.size(); ++corner) {
             begin_[corner] += begin_[corner - 1];
         }
-        beholder_.resize(static_cast<std::size_t>(inward.place.size()));
+        beholder_.resize(std::size_t(inward.place.size()));
         std::vector<std::size_t> next(begin_.begin(), begin_.end() - 1);
         for (Int node = 0; node + 1 < inward.begin.size(); ++node) {
             for (Int entry = inward.begin[node]; entry < inward.begin[node + 1]; ++entry) {
-                beholder_[next[static_cast<std::size_t>(inward.place[entry])]++] = {node, entry};
+                beholder_[next[std::size_t(inward.place[entry])]++] = {node, entry};
             }
         }
     }
 
     std::span<const Beholder> of(Int corner) const {
-        const auto at = static_cast<std::size_t>(corner);
+        const auto at = std::size_t(corner);
         return {beholder_.data() + begin_[at], begin_[at + 1] - begin_[at]};
     }
 
@@ -162,9 +159,9 @@ class Reach {
 public:
     explicit Reach(const Network& network)
         : network_(network),
-          flown_(static_cast<std::size_t>(network.between.begin.size() - 1)),
+          flown_(std::size_t(network.between.begin.size() - 1)),
           sides_(flown_.size()),
-          least_(static_cast<std::size_t>(network.inward.begin.size() - 1)),
+          least_(std::size_t(network.inward.begin.size() - 1)),
           beholders_(network.inward, flown_.size()),
           ahead_(std::max(longest(network.outward.duration), longest(network.between.duration))) {}
 
@@ -187,15 +184,13 @@ public:
         ahead_.clear();
     }
 
-    const FlightLength& flown_to(Int target) const {
-        return least_[static_cast<std::size_t>(target)];
-    }
+    const FlightLength& flown_to(Int target) const { return least_[std::size_t(target)]; }
 
 private:
     static constexpr Int looks_back = 64;     // arrivals until it is looked whether all are reached
     static constexpr double rounding = 1e-9;  // seconds within which ways take as long
 
-    FlightLength& to(Int corner) { return flown_[static_cast<std::size_t>(corner)]; }
+    FlightLength& to(Int corner) { return flown_[std::size_t(corner)]; }
 
     double longest_to(std::span<const Int> targets) const {
         double found = 0.0;
@@ -210,7 +205,7 @@ private:
         const FlightLength here = to(corner);
         for (const auto& [node, entry] : beholders_.of(corner)) {
             const double total = here.duration + network_.inward.duration[entry];
-            FlightLength& there = least_[static_cast<std::size_t>(node)];
+            FlightLength& there = least_[std::size_t(node)];
             if (total < there.duration) {
                 there = {here.distance + network_.inward.distance[entry], total};
             }
@@ -221,7 +216,7 @@ private:
         const Sights& between = network_.between;
         const Turns& turns = network_.turns;
         const FlightLength here = to(corner);
-        const auto sides = sides_[static_cast<std::size_t>(corner)];
+        const auto sides = sides_[std::size_t(corner)];
         const Int first =
             (sides & Turns::left) != 0 ? between.begin[corner] : turns.only_left_end[corner];
         const Int last = (sides & Turns::right) != 0 ? between.begin[corner + 1]
@@ -238,7 +233,7 @@ private:
     void reach(Int corner, const FlightLength& flown, std::int32_t sides) {
         if (!(flown.duration < nowhere)) return;
         FlightLength& there = to(corner);
-        std::int32_t& kept = sides_[static_cast<std::size_t>(corner)];
+        std::int32_t& kept = sides_[std::size_t(corner)];
         if (flown.duration < there.duration) {
             kept = there.duration - flown.duration <= rounding ? kept | sides : sides;
             there = flown;

@@ -58,18 +58,18 @@ void Quarter::bound(const std::vector<Corner>& corners, std::size_t num_edges) {
         y.include(corner.place.y);
     }
     if (!corners.empty()) low_ = {x.low, y.low};
-    const double count = static_cast<double>(std::max(num_edges, std::size_t{1}));
+    const double count = double(std::max(num_edges, std::size_t{1}));
     cell_ = std::max({std::sqrt(x.length() * y.length() / count), x.length() / most_cells,
                       y.length() / most_cells, narrowest});
-    columns_ = std::min(static_cast<Int>(x.length() / cell_) + 1, most_cells);
-    rows_ = std::min(static_cast<Int>(y.length() / cell_) + 1, most_cells);
+    columns_ = std::min(Int(x.length() / cell_) + 1, most_cells);
+    rows_ = std::min(Int(y.length() / cell_) + 1, most_cells);
 }
 
 void Quarter::file_corners(const std::vector<Corner>& corners) {
-    corner_begin_.assign(static_cast<std::size_t>(columns_ * rows_) + 1, 0);
+    corner_begin_.assign(std::size_t(columns_ * rows_) + 1, 0);
     const auto cell_of = [&](const Corner& corner) {
         const Int column = column_of(corner.place.x);
-        return static_cast<std::size_t>(row_of(corner.place.y) * columns_ + column);
+        return std::size_t(row_of(corner.place.y) * columns_ + column);
     };
     for (const Corner& corner : corners) ++corner_begin_[cell_of(corner) + 1];
     add_up(corner_begin_);
@@ -77,14 +77,14 @@ void Quarter::file_corners(const std::vector<Corner>& corners) {
     corner_.resize(corners.size());
     std::vector<Int> next(corner_begin_.begin(), corner_begin_.end() - 1);
     for (std::size_t number = 0; number < corners.size(); ++number) {
-        const auto place = static_cast<std::size_t>(next[cell_of(corners[number])]++);
-        number_[place] = static_cast<Int>(number);
+        const auto place = std::size_t(next[cell_of(corners[number])]++);
+        number_[place] = Int(number);
         corner_[place] = corners[number];
     }
 }
 
 void Quarter::file_parts(const std::vector<Edge>& edges) {
-    part_begin_.assign(static_cast<std::size_t>(columns_ * rows_) + 1, 0);
+    part_begin_.assign(std::size_t(columns_ * rows_) + 1, 0);
     const auto for_each = [&](const auto& visit) {
         for (const Edge& edge : edges) {
             for_each_cell(edge.a.y <= edge.b.y ? edge : Edge{edge.b, edge.a}, visit);
@@ -92,11 +92,9 @@ void Quarter::file_parts(const std::vector<Edge>& edges) {
     };
     for_each([&](std::size_t cell, const Edge&) { ++part_begin_[cell + 1]; });
     add_up(part_begin_);
-    part_.resize(static_cast<std::size_t>(part_begin_.back()));
+    part_.resize(std::size_t(part_begin_.back()));
     std::vector<Int> next(part_begin_.begin(), part_begin_.end() - 1);
-    for_each([&](std::size_t cell, const Edge& part) {
-        part_[static_cast<std::size_t>(next[cell]++)] = part;
-    });
+    for_each([&](std::size_t cell, const Edge& part) { part_[std::size_t(next[cell]++)] = part; });
 }
 
 // Visit the cells that an edge crosses, each with its part in that row. Parts of one edge in two
@@ -110,7 +108,7 @@ void Quarter::for_each_cell(const Edge& edge, const Visit& visit) const {
         part.b = row == top || ceiling >= edge.b.y ? edge.b : Point2{x_at(edge, ceiling), ceiling};
         const Int last = column_of(std::max(part.a.x, part.b.x));
         for (Int column = column_of(std::min(part.a.x, part.b.x)); column <= last; ++column) {
-            visit(static_cast<std::size_t>(row * columns_ + column), part);
+            visit(std::size_t(row * columns_ + column), part);
         }
         part.a = part.b;
     }
@@ -122,7 +120,7 @@ Quarter::Columns Quarter::columns_seen(const Point2& from, Int row, const Slopes
     const double end = floor_of(row + 1) - from.y + pad;
     const double left = from.x + slopes.from * (slopes.from < 0 ? end : begin) - pad;
     const double right = from.x + slopes.to * (slopes.to < 0 ? begin : end) + pad;
-    if (left > low_.x + cell_ * static_cast<double>(columns_ + 1) || right < low_.x - cell_) {
+    if (left > low_.x + cell_ * double(columns_ + 1) || right < low_.x - cell_) {
         return {};
     }
     return {column_of(left), column_of(right)};

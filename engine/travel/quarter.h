@@ -7,8 +7,6 @@
 // behind isn't looked at.
 #pragma once
 
-#include <algorithm>
-#include <cstddef>
 #include <vector>
 
 #include "travel/corners.h"
@@ -25,12 +23,12 @@ class Quarter {
 public:
     Quarter(const std::vector<Corner>& corners, const std::vector<Edge>& edges);
 
-    Int size() const { return static_cast<Int>(number_.size()); }
+    Int size() const { return Int(number_.size()); }
 
     // The number of the corner in a place.
-    Int number(Int place) const { return number_[static_cast<std::size_t>(place)]; }
+    Int number(Int place) const { return number_[std::size_t(place)]; }
 
-    const Corner& corner(Int place) const { return corner_[static_cast<std::size_t>(place)]; }
+    const Corner& corner(Int place) const { return corner_[std::size_t(place)]; }
 
     Int rows() const { return rows_; }
 
@@ -58,8 +56,8 @@ public:
     template <typename Visit>
     void for_each_part(Int row, const Columns& columns, const Visit& visit) const {
         const auto [begin, end] = cells(row, columns);
-        for (auto part = static_cast<std::size_t>(part_begin_[begin]);
-             part < static_cast<std::size_t>(part_begin_[end]); ++part) {
+        for (auto part = std::size_t(part_begin_[begin]); part < std::size_t(part_begin_[end]);
+             ++part) {
             visit(part_[part]);
         }
     }
@@ -70,15 +68,15 @@ private:
     };
 
     Cells cells(Int row, const Columns& columns) const {
-        return {static_cast<std::size_t>(row * columns_ + columns.first),
-                static_cast<std::size_t>(row * columns_ + columns.last + 1)};
+        return {std::size_t(row * columns_ + columns.first),
+                std::size_t(row * columns_ + columns.last + 1)};
     }
 
     static Int within(double place, Int count) {
-        return static_cast<Int>(std::clamp(place, 0.0, static_cast<double>(count - 1)));
+        return Int(std::clamp(place, 0.0, double(count - 1)));
     }
 
-    double floor_of(Int row) const { return low_.y + cell_ * static_cast<double>(row); }
+    double floor_of(Int row) const { return low_.y + cell_ * double(row); }
 
     Int column_of(double x) const { return within((x - low_.x) / cell_, columns_); }
 

@@ -3,11 +3,8 @@
 // Obstacles are segments, the edges of areas that no line of sight may meet. They are filed under
 // the cells of a grid that they cross, so that a line of sight is compared only with those on its
 // way.
-#include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
-#include <vector>
 
 #include "guard.h"
 #include "travel/quarter.h"
@@ -39,14 +36,13 @@ class Grid {
 public:
     explicit Grid(View<const double, 2> edges) : edges_(edges) {
         bound();
-        begin_.assign(static_cast<std::size_t>(columns_ * rows_) + 1, 0);
-        for_each_entry([&](Int cell, Int) { ++begin_[static_cast<std::size_t>(cell) + 1]; });
+        begin_.assign(std::size_t(columns_ * rows_) + 1, 0);
+        for_each_entry([&](Int cell, Int) { ++begin_[std::size_t(cell) + 1]; });
         for (std::size_t cell = 1; cell < begin_.size(); ++cell) begin_[cell] += begin_[cell - 1];
-        entry_.resize(static_cast<std::size_t>(begin_.back()));
+        entry_.resize(std::size_t(begin_.back()));
         std::vector<Int> next(begin_.begin(), begin_.end() - 1);
-        for_each_entry([&](Int cell, Int edge) {
-            entry_[static_cast<std::size_t>(next[static_cast<std::size_t>(cell)]++)] = edge;
-        });
+        for_each_entry(
+            [&](Int cell, Int edge) { entry_[std::size_t(next[std::size_t(cell)]++)] = edge; });
     }
 
     // How many pairs of edges share a cell, so that they may cross.
@@ -72,9 +68,8 @@ public:
             return found;
         }
         any_cell(here, there, [&](Int cell) {
-            const auto last = static_cast<std::size_t>(begin_[static_cast<std::size_t>(cell) + 1]);
-            for (auto at = static_cast<std::size_t>(begin_[static_cast<std::size_t>(cell)]);
-                 at < last; ++at) {
+            const auto last = std::size_t(begin_[std::size_t(cell) + 1]);
+            for (auto at = std::size_t(begin_[std::size_t(cell)]); at < last; ++at) {
                 if (!meets(to, seen_from(here, entry_[at]))) continue;
                 found = entry_[at];
                 return true;
@@ -111,11 +106,11 @@ private:
         if (edges_.empty()) low_ = high = {0.0, 0.0};
         const double width = high.x - low_.x;
         const double height = high.y - low_.y;
-        const double count = static_cast<double>(std::max(edges_.size(), Int{1}));
+        const double count = double(std::max(edges_.size(), Int{1}));
         cell_ = std::max({std::sqrt(width * height / count), width / most_cells,
                           height / most_cells, narrowest});
-        columns_ = std::min(static_cast<Int>(width / cell_) + 1, most_cells);
-        rows_ = std::min(static_cast<Int>(height / cell_) + 1, most_cells);
+        columns_ = std::min(Int(width / cell_) + 1, most_cells);
+        rows_ = std::min(Int(height / cell_) + 1, most_cells);
     }
 
     template <typename Visit>
@@ -135,14 +130,14 @@ private:
         const double pad = margin * cell_;
         const double lowest = std::min(from.y, to.y) - pad;
         const double highest = std::max(from.y, to.y) + pad;
-        if (highest < low_.y || lowest > low_.y + cell_ * static_cast<double>(rows_)) return false;
+        if (highest < low_.y || lowest > low_.y + cell_ * double(rows_)) return false;
         const Int bottom = within((lowest - low_.y) / cell_, rows_);
         const Int top = within((highest - low_.y) / cell_, rows_);
         const bool up = from.y <= to.y;
         const double slope = to.y == from.y ? 0.0 : (to.x - from.x) / (to.y - from.y);
         for (Int number = bottom; number <= top; ++number) {
             const Int row = up ? number : bottom + top - number;
-            const double floor = low_.y + cell_ * static_cast<double>(row) - pad;
+            const double floor = low_.y + cell_ * double(row) - pad;
             const auto [left, right] = slope == 0.0
                                            ? Span{std::min(from.x, to.x), std::max(from.x, to.x)}
                                            : crossing(from, to, slope, floor);
@@ -167,7 +162,7 @@ private:
 
     template <typename Test>
     bool any_in_row(Int row, double left, double right, bool rightwards, const Test& test) const {
-        if (right < low_.x || left > low_.x + cell_ * static_cast<double>(columns_)) return false;
+        if (right < low_.x || left > low_.x + cell_ * double(columns_)) return false;
         const Int first = within((left - low_.x) / cell_, columns_);
         const Int last = within((right - low_.x) / cell_, columns_);
         for (Int number = first; number <= last; ++number) {
@@ -178,7 +173,7 @@ private:
     }
 
     static Int within(double place, Int count) {
-        return static_cast<Int>(std::clamp(place, 0.0, static_cast<double>(count - 1)));
+        return Int(std::clamp(place, 0.0, double(count - 1)));
     }
 
     View<const double, 2> edges_;  // (edge, 4) x and y of both ends
@@ -211,7 +206,7 @@ private:
         if (reach == 0) return 0;
         const double quarter = y / reach;  // grows from -1 to 1 on the right, and falls on the left
         const double turn = x >= 0 ? quarter + 1 : 3 - quarter;
-        return std::min(static_cast<std::size_t>(turn * (directions / 4.0)), directions - 1);
+        return std::min(std::size_t(turn * (directions / 4.0)), directions - 1);
     }
 
     const Grid& grid_;
@@ -258,14 +253,14 @@ Quarter quarter_of(const Corners& corners, View<const double, 2> edges, bool is_
         return is_east ? Point2{point.y, point.x} : point;
     };
     std::vector<Corner> corner;
-    corner.reserve(static_cast<std::size_t>(corners.size()));
+    corner.reserve(std::size_t(corners.size()));
     for (Int number = 0; number < corners.size(); ++number) {
         const auto [place, before, after] = corners[number];
         corner.push_back(
             {seen(place), seen(is_east ? after : before), seen(is_east ? before : after)});
     }
     std::vector<Edge> edge;
-    edge.reserve(static_cast<std::size_t>(edges.size()));
+    edge.reserve(std::size_t(edges.size()));
     for (Int row = 0; row < edges.size(); ++row) {
         edge.push_back(
             {seen({edges(row, 0), edges(row, 1)}), seen({edges(row, 2), edges(row, 3)})});
@@ -297,8 +292,8 @@ public:
                 const double east = std::abs(there.x - here.x), north = std::abs(there.y - here.y);
                 if (is_east ? east <= north : north == 0 && other <= one) return;
                 if (screens.hide(here, there)) return;
-                pairs_(written_, 0) = static_cast<std::int32_t>(one);
-                pairs_(written_, 1) = static_cast<std::int32_t>(other);
+                pairs_(written_, 0) = std::int32_t(one);
+                pairs_(written_, 1) = std::int32_t(other);
                 ++written_;
             });
         }

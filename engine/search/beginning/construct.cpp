@@ -1,9 +1,5 @@
 #include "search/beginning/construct.h"
 
-#include <algorithm>
-
-#include "guard.h"
-#include "rules/pair.h"
 #include "search/route/fairness.h"
 #include "search/route/state.h"
 #include "search/search.h"

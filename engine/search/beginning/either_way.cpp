@@ -1,6 +1,5 @@
 #include "search/beginning/either_way.h"
 
-#include "guard.h"
 #include "rules/shift.h"
 
 namespace tandem {

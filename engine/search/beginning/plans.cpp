@@ -1,13 +1,8 @@
 #include "search/beginning/plans.h"
 
-#include <algorithm>
 #include <stdexcept>
-#include <vector>
 
-#include "guard.h"
 #include "rules/drone_types.h"
-#include "rules/flight.h"
-#include "rules/flown_trip.h"
 #include "rules/hub.h"
 #include "search/beginning/translate.h"
 #include "search/route/lags.h"
@@ -162,14 +157,14 @@ Int read_plan(const Fleet& fleet, View<const Int, 1> numbers) {
 }
 
 void tell_routes(const ProblemData& data, Fleet& fleet, Int slots, Plan& plan) {
-    std::vector<Int> vehicles(static_cast<std::size_t>(data.num_types), 0);
+    std::vector<Int> vehicles(std::size_t(data.num_types), 0);
     for (Int slot = 0; slot < slots; ++slot) {
         const Route& route = fleet.route[slot];
         if (route.length == 0) continue;
         if (!finish_route(data, fleet, slot)) {
             throw std::invalid_argument("nobody can drive the route");
         }
-        tell_route(data, fleet, slot, vehicles[static_cast<std::size_t>(route.type)]++, plan);
+        tell_route(data, fleet, slot, vehicles[std::size_t(route.type)]++, plan);
     }
 }
 

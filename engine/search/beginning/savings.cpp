@@ -1,16 +1,7 @@
 #include "search/beginning/savings.h"
 
-#include <algorithm>
-
-#include "guard.h"
 #include "rules/flown_trip.h"
-#include "rules/leg.h"
-#include "rules/segment.h"
-#include "rules/shift.h"
-#include "rules/start.h"
-#include "rules/window.h"
 #include "search/neighbourhood/tables.h"
-#include "search/route/rarer.h"
 #include "search/route/routes.h"
 
 namespace tandem {

@@ -4,9 +4,6 @@
 // delivery points, Operations Research 12:568-581.
 #pragma once
 
-#include "rows.h"
-#include "rules/leg.h"
-#include "rules/load.h"
 #include "search/route/layout.h"
 
 namespace tandem {

@@ -1,23 +1,14 @@
 #include "search/beginning/translate.h"
 
-#include <algorithm>
-
-#include "guard.h"
-#include "rules/driving.h"
 #include "rules/hub.h"
-#include "rules/pair.h"
-#include "rules/shift.h"
 #include "search/beginning/plans.h"
 #include "search/insertion/alone.h"
 #include "search/moves/two_opt_star.h"
 #include "search/route/fairness.h"
 #include "search/route/freshness.h"
 #include "search/route/lags.h"
-#include "search/route/rarer.h"
 #include "search/route/refresh.h"
-#include "search/route/routes.h"
 #include "search/route/settling.h"
-#include "search/route/state.h"
 #include "search/search.h"
 
 namespace tandem {

@@ -1,18 +1,10 @@
-#include <algorithm>
-#include <array>
 #include <cmath>
 #include <numeric>
-#include <optional>
-#include <vector>
 
-#include "guard.h"
 #include "randomness.h"
-#include "rules/pair.h"
 #include "search/route/fairness.h"
 #include "search/route/rarer.h"
-#include "search/route/state.h"
 #include "search/search.h"
-#include "search/shipments/pair_row.h"
 #include "search/shipments/rows.h"
 
 namespace tandem {

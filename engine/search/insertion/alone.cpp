@@ -1,16 +1,8 @@
 #include "search/insertion/alone.h"
 
-#include <array>
-
-#include "randomness.h"
 #include "rules/breaks.h"
-#include "rules/drone_types.h"
-#include "rules/pair.h"
 #include "search/insertion/parts_alone.h"
-#include "search/route/edit.h"
-#include "search/route/rarer.h"
 #include "search/route/refresh.h"
-#include "search/route/routes.h"
 
 namespace tandem {
 namespace {

@@ -1,10 +1,6 @@
 // The few cheapest of many.
 #pragma once
 
-#include <algorithm>
-#include <array>
-#include <cstddef>
-
 #include "problem/instance.h"
 
 namespace tandem {

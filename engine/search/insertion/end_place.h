@@ -1,8 +1,6 @@
 // Where an end of a shipment is served on a trip.
 #pragma once
 
-#include <algorithm>
-
 #include "problem/instance.h"
 
 namespace tandem {

@@ -1,19 +1,10 @@
-#include <algorithm>
 
-#include "rules/drone_types.h"
-#include "rules/flight.h"
 #include "rules/launch_place.h"
-#include "rules/leg.h"
-#include "rules/shift.h"
 #include "search/insertion/listing.h"
 #include "search/insertion/offers.h"
 #include "search/route/drone_data.h"
-#include "search/route/edit.h"
-#include "search/route/rarer.h"
 #include "search/route/refresh.h"
-#include "search/route/routes.h"
 #include "search/route/stop_loads.h"
-#include "search/route/vehicles.h"
 
 namespace tandem {
 namespace {

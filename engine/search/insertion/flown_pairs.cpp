@@ -1,16 +1,7 @@
 #include "search/insertion/flown_pairs.h"
 
-#include <algorithm>
-
-#include "rules/load.h"
-#include "rules/pair.h"
-#include "search/insertion/cheapest.h"
-#include "search/insertion/end_place.h"
 #include "search/insertion/trip_scan.h"
-#include "search/route/rarer.h"
 #include "search/route/refresh.h"
-#include "search/route/routes.h"
-#include "search/route/vehicles.h"
 #include "search/scratch.h"
 
 namespace tandem {

@@ -1,15 +1,8 @@
 #include "search/insertion/flown_parts.h"
 
-#include <algorithm>
-#include <array>
 #include <utility>
 
-#include "rules/drone_types.h"
-#include "rules/pair.h"
-#include "search/insertion/cheapest.h"
-#include "search/insertion/end_place.h"
 #include "search/insertion/trip_scan.h"
-#include "search/route/vehicles.h"
 
 namespace tandem {
 namespace {

@@ -1,9 +1,6 @@
 // The least of numbers that are taken out one after another.
 #pragma once
 
-#include <algorithm>
-#include <array>
-
 #include "problem/instance.h"
 
 namespace tandem {
@@ -48,8 +45,7 @@ private:
 
     void note(Int block) {
         const Int begin = block * length_;
-        least_[static_cast<std::size_t>(block)] =
-            least_of(&numbers_[begin], std::min(length_, count_ - begin));
+        least_[std::size_t(block)] = least_of(&numbers_[begin], std::min(length_, count_ - begin));
     }
 
     // The least of some numbers, in lanes that processors compare at once.
@@ -60,7 +56,7 @@ private:
         const Int whole = count - count % width;
         for (Int index = 0; index < whole; index += width) {
             for (Int lane = 0; lane < width; ++lane) {
-                double& least = lanes[static_cast<std::size_t>(lane)];
+                double& least = lanes[std::size_t(lane)];
                 least = std::min(least, numbers[index + lane]);
             }
         }

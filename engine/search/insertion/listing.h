@@ -2,7 +2,6 @@
 #pragma once
 
 #include "rules/rates.h"
-#include "search/route/layout.h"
 #include "search/scratch.h"
 
 namespace tandem {

@@ -1,16 +1,11 @@
 #include "search/insertion/new_trips.h"
 
-#include <algorithm>
 #include <utility>
 
-#include "rules/leg.h"
-#include "rules/load.h"
 #include "rules/segment.h"
 #include "rules/shift.h"
-#include "rules/window.h"
 #include "search/route/edit.h"
 #include "search/route/goods.h"
-#include "search/route/rarer.h"
 
 namespace tandem {
 namespace {
@@ -26,7 +21,7 @@ template <class Visit>
 void for_each_flown(const Fleet& fleet, Int slot, Half half, const Visit& visit) {
     for (const Sortie& sortie : fleet.sortie[slot].first(fleet.route[slot].sorties)) {
         if (half.first <= sortie.launch && sortie.launch <= half.last) {
-            for (Int index = 0; index < sortie.count; ++index) visit(sortie.nodes[index]);
+            for (const Int node : sortie.customers()) visit(node);
         }
     }
 }

@@ -1,7 +1,6 @@
 // A customer who is to be inserted, as vehicles of one type meet him between any two places.
 #pragma once
 
-#include "rules/leg.h"
 #include "rules/segment.h"
 #include "search/route/layout.h"
 

@@ -1,30 +1,16 @@
 #include "search/insertion/offers.h"
 
-#include <algorithm>
-
-#include "randomness.h"
-#include "rules/drone_types.h"
-#include "rules/energy.h"
-#include "rules/flight.h"
 #include "rules/launch_place.h"
-#include "rules/shift.h"
 #include "search/insertion/cheapest_stop.h"
-#include "search/insertion/evaluate.h"
 #include "search/insertion/least.h"
 #include "search/insertion/listing.h"
 #include "search/insertion/new_trips.h"
-#include "search/insertion/newcomer.h"
 #include "search/route/drone_data.h"
-#include "search/route/edit.h"
 #include "search/route/ends.h"
 #include "search/route/goods.h"
 #include "search/route/least_cost.h"
-#include "search/route/rarer.h"
 #include "search/route/refresh.h"
-#include "search/route/routes.h"
 #include "search/route/stop_loads.h"
-#include "search/route/vehicles.h"
-#include "search/scratch.h"
 
 namespace tandem {
 namespace {

@@ -1,19 +1,8 @@
 #include "search/insertion/pairs.h"
 
-#include <algorithm>
-#include <array>
-#include <optional>
 #include <tuple>
 
-#include "rules/driving.h"
-#include "rules/drone_types.h"
-#include "rules/flown_trip.h"
-#include "rules/load.h"
-#include "rules/pair.h"
-#include "rules/shift.h"
-#include "rules/start.h"
 #include "search/insertion/alone.h"
-#include "search/insertion/cheapest.h"
 #include "search/insertion/flown_pairs.h"
 #include "search/insertion/flown_parts.h"
 #include "search/insertion/parts.h"
@@ -21,10 +10,7 @@
 #include "search/insertion/trip_scan.h"
 #include "search/route/freshness.h"
 #include "search/route/goods.h"
-#include "search/route/rarer.h"
 #include "search/route/refresh.h"
-#include "search/route/routes.h"
-#include "search/route/vehicles.h"
 #include "search/scratch.h"
 
 namespace tandem {

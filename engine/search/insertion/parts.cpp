@@ -1,12 +1,7 @@
 #include "search/insertion/parts.h"
 
-#include <algorithm>
-#include <array>
 #include <utility>
 
-#include "rules/load.h"
-#include "rules/pair.h"
-#include "search/insertion/cheapest.h"
 #include "search/insertion/trip_scan.h"
 
 namespace tandem {

@@ -1,14 +1,7 @@
 #include "search/insertion/parts_alone.h"
 
-#include <algorithm>
-
-#include "randomness.h"
-#include "rules/drone_types.h"
-#include "rules/pair.h"
 #include "search/insertion/alone.h"
-#include "search/route/edit.h"
 #include "search/route/refresh.h"
-#include "search/route/routes.h"
 
 namespace tandem {
 namespace {

@@ -1,26 +1,15 @@
 #include "search/insertion/places.h"
 
-#include <algorithm>
-
-#include "randomness.h"
-#include "rules/flight.h"
-#include "rules/pair.h"
-#include "rules/shift.h"
-#include "rules/window.h"
 #include "search/insertion/alone.h"
 #include "search/insertion/cheapest_stop.h"
 #include "search/insertion/offers.h"
 #include "search/insertion/pairs.h"
-#include "search/route/edit.h"
 #include "search/route/ends.h"
 #include "search/route/fairness.h"
 #include "search/route/goods.h"
 #include "search/route/hubs.h"
 #include "search/route/lags.h"
-#include "search/route/rarer.h"
 #include "search/route/refresh.h"
-#include "search/route/state.h"
-#include "search/route/vehicles.h"
 
 namespace tandem {
 namespace {

@@ -1,7 +1,5 @@
 // All places of a customer, or a shipment, on a route.
-#include <algorithm>
 
-#include "guard.h"
 #include "search/insertion/places.h"
 #include "search/search.h"
 

@@ -1,13 +1,8 @@
 // A trip that goes on otherwise behind one of its stops, until it is as it was.
 #pragma once
 
-#include <array>
-#include <optional>
-
-#include "rules/pair.h"
 #include "search/insertion/newcomer.h"
 #include "search/route/flown_trips.h"
-#include "search/route/rarer.h"
 #include "search/route/routes.h"
 
 namespace tandem {

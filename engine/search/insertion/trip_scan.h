@@ -1,19 +1,11 @@
 // A trip on which a shipment is tried, and what each way to try it asks.
 #pragma once
 
-#include <algorithm>
-
-#include "rules/drone_types.h"
-#include "rules/flight.h"
 #include "rules/launch_place.h"
-#include "rules/rates.h"
-#include "rules/shift.h"
-#include "search/insertion/best.h"
 #include "search/insertion/end_place.h"
 #include "search/insertion/offers.h"
 #include "search/insertion/proposal.h"
 #include "search/route/drone_data.h"
-#include "search/route/vehicles.h"
 
 namespace tandem {
 

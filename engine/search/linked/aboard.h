@@ -2,8 +2,6 @@
 // of more dimensions than three.
 #pragma once
 
-#include "rules/load.h"
-#include "rules/shift.h"
 #include "search/insertion/best.h"
 #include "search/linked/layout.h"
 

@@ -1,13 +1,7 @@
 #include "search/linked/chain.h"
 
-#include <algorithm>
-
-#include "rules/leg.h"
-#include "rules/load.h"
-#include "rules/window.h"
 #include "search/linked/aboard.h"
 #include "search/linked/retype.h"
-#include "search/route/state.h"
 
 namespace tandem {
 

@@ -1,24 +1,13 @@
 #include "search/linked/insertion.h"
 
-#include <algorithm>
-#include <array>
 #include <cmath>
-#include <optional>
 
-#include "randomness.h"
-#include "rules/leg.h"
-#include "rules/load.h"
-#include "rules/window.h"
-#include "search/insertion/best.h"
-#include "search/insertion/newcomer.h"
 #include "search/insertion/places.h"
 #include "search/linked/aboard.h"
 #include "search/linked/chain.h"
 #include "search/linked/retype.h"
 #include "search/linked/room.h"
 #include "search/moves/recreate.h"
-#include "search/route/edit.h"
-#include "search/route/state.h"
 
 namespace tandem {
 

@@ -1,9 +1,6 @@
-#include "search/linked/layout.h"
 
-#include <algorithm>
 #include <utility>
 
-#include "guard.h"
 #include "search/linked/strings.h"
 #include "search/linked/tying.h"
 #include "search/search.h"

@@ -2,9 +2,7 @@
 #pragma once
 
 #include <limits>
-#include <memory>
 
-#include "rows.h"
 #include "search/route/layout.h"
 
 namespace tandem {

@@ -1,10 +1,6 @@
 #include "search/linked/retype.h"
 
-#include <algorithm>
-
-#include "randomness.h"
 #include "search/linked/aboard.h"
-#include "search/route/state.h"
 
 namespace tandem {
 

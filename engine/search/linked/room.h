@@ -1,9 +1,6 @@
 // Whether linked routes have room for a customer more.
 #pragma once
 
-#include <array>
-
-#include "rules/load.h"
 #include "search/linked/layout.h"
 
 namespace tandem {

@@ -1,10 +1,5 @@
 #include "search/linked/store.h"
 
-#include <algorithm>
-#include <limits>
-
-#include "guard.h"
-#include "randomness.h"
 #include "search/anneal.h"
 #include "search/linked/chain.h"
 #include "search/linked/insertion.h"
@@ -12,7 +7,6 @@
 #include "search/linked/strings.h"
 #include "search/linked/tails.h"
 #include "search/linked/tying.h"
-#include "search/route/state.h"
 #include "search/search.h"
 
 namespace tandem {

@@ -1,9 +1,5 @@
 #include "search/linked/strings.h"
 
-#include <algorithm>
-
-#include "randomness.h"
-#include "rules/window.h"
 #include "search/linked/aboard.h"
 #include "search/linked/chain.h"
 #include "search/moves/ruin.h"

@@ -1,16 +1,9 @@
 #include "search/linked/tails.h"
 
-#include <algorithm>
-
-#include "rules/leg.h"
-#include "rules/load.h"
-#include "rules/shift.h"
-#include "rules/window.h"
 #include "search/linked/aboard.h"
 #include "search/linked/chain.h"
 #include "search/moves/two_opt_star.h"
 #include "search/route/refresh.h"
-#include "search/route/state.h"
 
 namespace tandem {
 

@@ -1,15 +1,8 @@
 #include "search/linked/tying.h"
 
-#include <algorithm>
-
-#include "guard.h"
-#include "rules/leg.h"
-#include "rules/load.h"
 #include "search/linked/aboard.h"
 #include "search/linked/chain.h"
-#include "search/route/edit.h"
 #include "search/route/refresh.h"
-#include "search/route/state.h"
 #include "search/search.h"
 
 namespace tandem {
@@ -25,7 +18,7 @@ void measure_near_by(const ProblemData& data, const Nearness& measured, Int k, I
         if (other < 0) continue;
         std::int32_t& near = measured(node, rank);
         const Int distance = std::min(nearness(inward, onward, other), Int{near});
-        near = static_cast<std::int32_t>(distance);
+        near = std::int32_t(distance);
     }
 }
 

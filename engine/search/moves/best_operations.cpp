@@ -1,11 +1,6 @@
 #include "search/moves/best_operations.h"
 
-#include <algorithm>
 #include <bit>
-
-#include "rules/launch_place.h"
-#include "rules/leg.h"
-#include "rules/rates.h"
 
 namespace tandem {
 namespace {
@@ -19,16 +14,16 @@ BestOperations::BestOperations(const ProblemData& data, PartScratch& scratch)
       part_(scratch.part),
       scratch_(scratch),
       rate_(data.rate[part_.type]),
-      customers_(static_cast<Spot>(part_.customers)),
-      spots_(static_cast<Spot>(part_.customers + part_.halts + 2)),
+      customers_(Spot(part_.customers)),
+      spots_(Spot(part_.customers + part_.halts + 2)),
       sets_(Int{1} << part_.customers),
-      all_(static_cast<unsigned>(sets_ - 1)) {
+      all_(unsigned(sets_ - 1)) {
     const PartToPlan& part = part_;
     node_[start] = part.from;
     std::copy_n(part.customer.begin(), part.customers, node_.begin() + 1);
     std::copy_n(part.halt.begin(), part.halts, node_.begin() + 1 + part.customers);
     std::copy_n(part.need.begin(), part.halts, need_.begin() + 1 + part.customers);
-    node_[static_cast<std::size_t>(spots_ - 1)] = part.to;
+    node_[std::size_t(spots_ - 1)] = part.to;
     for (Spot customer = 1; customer <= customers_; ++customer) {
         if (data.can(part.type, 0, node(customer))) driven_ |= bit(customer);
     }
@@ -177,7 +172,7 @@ double BestOperations::drive_on(Spot from, Spot to) const {
 void BestOperations::halt_from(unsigned set, Spot from) {
     const double before = reached(set, from).cost;
     if (before == infinite_cost) return;
-    for (Spot to = static_cast<Spot>(customers_ + 1); to < spots_; ++to) {
+    for (Spot to = Spot(customers_ + 1); to < spots_; ++to) {
         if (to == from || !may_come(set, to)) continue;
         reach(set, to, {before + drive_on(from, to), set, from, no_spot});
     }

@@ -7,9 +7,6 @@
 // salesman problem with drone, Networks 72:528-542.
 #pragma once
 
-#include <array>
-#include <cstdint>
-
 #include "search/moves/operations.h"
 #include "search/scratch.h"
 
@@ -26,9 +23,9 @@ public:
 
     Int count() const { return count_; }
     const PlannedOperation& operation(Int number) const { return scratch_.planned[number]; }
-    Int node(Spot spot) const { return node_[static_cast<std::size_t>(spot)]; }
+    Int node(Spot spot) const { return node_[std::size_t(spot)]; }
     bool is_customer(Spot spot) const { return spot > 0 && spot <= customers_; }
-    Spot last() const { return static_cast<Spot>(spots_ - 1); }
+    Spot last() const { return Spot(spots_ - 1); }
 
     // Calls a function for whom the truck serves on an operation, in order, but at its end.
     template <class Visit>
@@ -39,13 +36,13 @@ public:
         for (Spot to = operation.to; set != 0;) {
             to = way(operation.from, set, to).last;
             set &= ~bit(to);
-            order[static_cast<std::size_t>(number++)] = to;
+            order[std::size_t(number++)] = to;
         }
-        while (number > 0) visit(order[static_cast<std::size_t>(--number)]);
+        while (number > 0) visit(order[std::size_t(--number)]);
     }
 
 private:
-    static unsigned bit(Spot customer) { return 1U << static_cast<unsigned>(customer - 1); }
+    static unsigned bit(Spot customer) { return 1U << unsigned(customer - 1); }
     unsigned bit_of(Spot spot) const { return is_customer(spot) ? bit(spot) : 0U; }
     unsigned by_truck(const PlannedOperation& operation) const {
         const unsigned flown = operation.flown < 0 ? 0U : bit(operation.flown);
@@ -53,7 +50,7 @@ private:
     }
 
     Int at(Spot from, unsigned set, Spot to) const {
-        return (static_cast<Int>(from) * sets_ + static_cast<Int>(set)) * spots_ + to;
+        return (Int(from) * sets_ + Int(set)) * spots_ + to;
     }
     PartScratch::Via& way(Spot from, unsigned set, Spot to) const {
         return scratch_.way[at(from, set, to)];
@@ -62,9 +59,9 @@ private:
         return scratch_.flight[(from * (customers_ + 1) + customer) * spots_ + to];
     }
     PartScratch::Reached& reached(unsigned set, Spot spot) const {
-        return scratch_.reached[static_cast<Int>(set) * spots_ + spot];
+        return scratch_.reached[Int(set) * spots_ + spot];
     }
-    unsigned need(Spot spot) const { return need_[static_cast<std::size_t>(spot)]; }
+    unsigned need(Spot spot) const { return need_[std::size_t(spot)]; }
     bool drives(Spot customer) const { return driven_ & bit(customer); }
     bool flies(Spot customer) const { return data_.can(part_.type, 1, node(customer)); }
     bool launches(Spot spot) const { return is_launch_place(data_.no_launch, node(spot)); }

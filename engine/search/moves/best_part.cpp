@@ -1,14 +1,7 @@
 #include "search/moves/best_part.h"
 
-#include <algorithm>
-
 #include "randomness.h"
-#include "rules/launch_place.h"
 #include "search/moves/rewrite.h"
-#include "search/route/edit.h"
-#include "search/route/refresh.h"
-#include "search/route/routes.h"
-#include "search/route/state.h"
 
 namespace tandem {
 namespace {
@@ -18,13 +11,11 @@ constexpr unsigned never = ~0U;  // no stop at a launch site, whoever has been s
 // Return a number that tells a part apart from others.
 Int hash_of(const PartToPlan& part) {
     std::uint64_t hash = 14695981039346656037U;
-    const auto add = [&](Int number) {
-        hash = (hash ^ static_cast<std::uint64_t>(number)) * 1099511628211U;
-    };
+    const auto add = [&](Int number) { hash = (hash ^ std::uint64_t(number)) * 1099511628211U; };
     for (const Int number : {part.type, part.from, part.to, part.customers}) add(number);
     std::for_each_n(part.customer.begin(), part.customers, add);
     std::for_each_n(part.halt.begin(), part.halts, add);
-    return static_cast<Int>(hash);
+    return Int(hash);
 }
 
 }  // namespace
@@ -108,9 +99,7 @@ PartToPlan BestPart::read(Int slot, const TogetherPart& part) const {
     read.type = now.route[slot].type;
     read.from = now.stop(slot, part.first).node;
     read.to = now.stop(slot, part.last).node;
-    const auto add = [&](Int node) {
-        read.customer[static_cast<std::size_t>(read.customers++)] = node;
-    };
+    const auto add = [&](Int node) { read.customer[std::size_t(read.customers++)] = node; };
     for (Int p = part.first + 1; p < part.last; ++p) {
         if (now.stop(slot, p).kind == customer_stop) add(now.stop(slot, p).node);
     }
@@ -127,15 +116,14 @@ void BestPart::add_halts(Int slot, const TogetherPart& part, PartToPlan& read) c
     const Int most = std::min(most_sites, searcher_.scratch->part.halts);
     for (Int rank = 0; rank < data_.near_halts.shape(1); ++rank) {
         for (Int number = 0; number < read.customers; ++number) {
-            const Int halt =
-                data_.near_halts(read.customer[static_cast<std::size_t>(number)], rank);
+            const Int halt = data_.near_halts(read.customer[std::size_t(number)], rank);
             const auto end = read.halt.begin() + read.halts;
             if (read.halts == most) return;
             if (halt < 0 || std::find(read.halt.begin(), end, halt) != end) continue;
             const unsigned need = needed(slot, part, read, halt);
             if (need == never) continue;
-            read.halt[static_cast<std::size_t>(read.halts)] = halt;
-            read.need[static_cast<std::size_t>(read.halts++)] = need;
+            read.halt[std::size_t(read.halts)] = halt;
+            read.need[std::size_t(read.halts++)] = need;
         }
     }
 }
@@ -147,8 +135,8 @@ unsigned BestPart::needed(Int slot, const TogetherPart& part, const PartToPlan& 
     const Int after = data_.halt_after[halt];
     if (after < 0) return 0;
     for (Int number = 0; number < read.customers; ++number) {
-        if (read.customer[static_cast<std::size_t>(number)] == after) {
-            return 1U << static_cast<unsigned>(number);
+        if (read.customer[std::size_t(number)] == after) {
+            return 1U << unsigned(number);
         }
     }
     const Place& place = searcher_.now.where[after];

@@ -5,7 +5,6 @@
 #pragma once
 
 #include "search/moves/best_operations.h"
-#include "search/route/layout.h"
 
 namespace tandem {
 

@@ -1,14 +1,10 @@
 #include "search/moves/halting.h"
 
-#include <algorithm>
-
 #include "randomness.h"
-#include "rules/launch_place.h"
 #include "search/route/edit.h"
 #include "search/route/rarer.h"
 #include "search/route/refresh.h"
 #include "search/route/state.h"
-#include "search/scratch.h"
 
 namespace tandem {
 

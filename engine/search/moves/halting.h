@@ -6,7 +6,6 @@
 
 #include "rules/launch_place.h"
 #include "search/moves/split.h"
-#include "search/route/layout.h"
 
 namespace tandem {
 

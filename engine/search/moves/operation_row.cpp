@@ -1,6 +1,5 @@
 #include "search/moves/operation_row.h"
 
-#include <algorithm>
 #include <utility>
 
 namespace tandem {
@@ -58,7 +57,7 @@ void OperationRow::insert_stop(Int place, Int node) {
     const View<OperationStop, 1> room = room_.first(length_ + 1);
     const auto behind = room.begin() + place + 1, end = room.begin() + length_;
     std::move_backward(behind, end, end + 1);
-    room_[place + 1] = {static_cast<std::int32_t>(node), nobody, joint};
+    room_[place + 1] = {std::int32_t(node), nobody, joint};
     ++length_;
 }
 
@@ -78,7 +77,7 @@ bool OperationRow::insert_flight(Int launch, Int recovery, Int customer) {
     for (Int place = launch; place < recovery; ++place) {
         if (!room_[place].joint || room_[place].flown != nobody) return false;
     }
-    room_[launch].flown = static_cast<std::int32_t>(customer);
+    room_[launch].flown = std::int32_t(customer);
     for (Int place = launch + 1; place < recovery; ++place) room_[place].joint = false;
     return true;
 }

@@ -1,8 +1,6 @@
 // A trip with one drone as a row of operations, and changes of it.
 #pragma once
 
-#include <algorithm>
-
 #include "search/route/layout.h"
 
 namespace tandem {

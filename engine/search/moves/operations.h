@@ -4,16 +4,11 @@
 // that it waits for, or it serves them itself but for one, whom the drone serves meanwhile.
 #pragma once
 
-#include <algorithm>
 #include <limits>
 
-#include "rules/flight.h"
 #include "rules/launch_place.h"
-#include "rules/leg.h"
-#include "rules/rates.h"
 #include "rules/shift.h"
 #include "search/route/drone_data.h"
-#include "search/route/layout.h"
 
 namespace tandem {
 

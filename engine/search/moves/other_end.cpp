@@ -1,17 +1,9 @@
 #include "search/moves/other_end.h"
 
-#include <algorithm>
 #include <utility>
 
-#include "randomness.h"
-#include "rules/load.h"
-#include "rules/pair.h"
-#include "search/insertion/cheapest.h"
-#include "search/insertion/end_place.h"
 #include "search/insertion/trip_scan.h"
-#include "search/route/rarer.h"
 #include "search/route/refresh.h"
-#include "search/route/state.h"
 #include "search/scratch.h"
 
 namespace tandem {

@@ -1,24 +1,11 @@
 #include "search/moves/recreate.h"
 
-#include <algorithm>
-#include <array>
-
-#include "randomness.h"
-#include "rules/leg.h"
-#include "rules/load.h"
-#include "rules/pair.h"
-#include "rules/window.h"
 #include "search/insertion/alone.h"
 #include "search/insertion/places.h"
 #include "search/moves/halting.h"
-#include "search/route/edit.h"
 #include "search/route/fairness.h"
 #include "search/route/goods.h"
-#include "search/route/rarer.h"
 #include "search/route/refresh.h"
-#include "search/route/state.h"
-#include "search/route/vehicles.h"
-#include "search/scratch.h"
 
 namespace tandem {
 namespace {
@@ -172,7 +159,7 @@ Int find_best(const Insertion& insertion, Int home, bool opens, bool scan_all) {
 
 Int draw_order(const ProblemData& data, View<std::uint64_t, 1> rng) {
     if (is_dearer_to_some(data) && uniform(rng) < dearest_first) return by_cost;
-    return orders[static_cast<std::size_t>(below(rng, orders.size()))];
+    return orders[std::size_t(below(rng, orders.size()))];
 }
 
 void sort_absent(const ProblemData& data, const Searcher& searcher, Int first, Int order) {

@@ -1,23 +1,13 @@
 #include "search/moves/resplit.h"
 
-#include <algorithm>
 #include <cmath>
 
 #include "randomness.h"
-#include "rules/load.h"
-#include "rules/shift.h"
 #include "search/moves/halting.h"
 #include "search/moves/operations.h"
 #include "search/moves/rewrite.h"
-#include "search/moves/split.h"
 #include "search/moves/splitter.h"
-#include "search/route/edit.h"
-#include "search/route/rarer.h"
-#include "search/route/refresh.h"
 #include "search/route/resting.h"
-#include "search/route/routes.h"
-#include "search/route/state.h"
-#include "search/scratch.h"
 
 namespace tandem {
 namespace {

@@ -5,7 +5,6 @@
 #pragma once
 
 #include "search/moves/split.h"
-#include "search/route/layout.h"
 
 namespace tandem {
 

@@ -1,10 +1,8 @@
 #include "search/moves/retype.h"
 
 #include "randomness.h"
-#include "rules/drone_types.h"
 #include "rules/launch_place.h"
 #include "search/route/refresh.h"
-#include "search/route/state.h"
 #include "search/route/stop_loads.h"
 #include "search/route/vehicles.h"
 
@@ -38,8 +36,8 @@ bool may_fly(const ProblemData& data, Int k, const Sortie& sortie) {
         !can_carry(data, row, sortie, nowhere, nowhere)) {
         return false;
     }
-    for (Int visit = 0; visit < sortie.count; ++visit) {
-        if (!data.can(row, 1, sortie.nodes[visit])) return false;
+    for (const Int node : sortie.customers()) {
+        if (!data.can(row, 1, node)) return false;
     }
     return true;
 }

@@ -3,10 +3,8 @@
 
 #include "search/moves/two_opt_star.h"
 #include "search/route/edit.h"
-#include "search/route/rarer.h"
 #include "search/route/refresh.h"
 #include "search/route/routes.h"
-#include "search/route/state.h"
 
 namespace tandem {
 

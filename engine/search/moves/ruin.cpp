@@ -1,10 +1,6 @@
 #include "search/moves/ruin.h"
 
-#include <algorithm>
-
-#include "randomness.h"
 #include "rules/company.h"
-#include "search/route/edit.h"
 #include "search/route/lags.h"
 #include "search/route/rarer.h"
 #include "search/route/refresh.h"
@@ -54,7 +50,7 @@ bool listed(View<const Int, 1> slots, Int count, Int slot) {
 }  // namespace
 
 StopString draw_string(View<std::uint64_t, 1> rng, double longest, Int stops) {
-    Int size = 1 + static_cast<Int>(uniform(rng) * std::min(longest, static_cast<double>(stops)));
+    Int size = 1 + Int(uniform(rng) * std::min(longest, double(stops)));
     if (uniform(rng) < whole_trip_share && stops <= longest_whole_trip) size = stops;
     size = std::min(size, stops);
     Int spared = 0;
@@ -71,15 +67,14 @@ Int draw_gap(View<std::uint64_t, 1> rng, const StopString& string) {
 
 double longest_string(const Searcher& searcher, Int trips) {
     const SearchCounts& count = *searcher.count;
-    const double stops = static_cast<double>(count.customers - count.absent) /
-                         static_cast<double>(std::max(Int{1}, trips));
+    const double stops = double(count.customers - count.absent) / double(std::max(Int{1}, trips));
     const double allowed = std::min(searcher.value->longest, longest_share * stops);
     return std::min(stops, std::max(longest_usual_string, allowed));
 }
 
 Int draw_strings(double longest, View<std::uint64_t, 1> rng) {
     const double removed = std::max(average_removed, longest);
-    return 1 + static_cast<Int>(uniform(rng) * (4 * removed / (1 + longest) - 1));
+    return 1 + Int(uniform(rng) * (4 * removed / (1 + longest) - 1));
 }
 
 Int draw_seed(const ProblemData& data, const Searcher& searcher, View<const Int, 1> absent) {

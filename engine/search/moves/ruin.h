@@ -1,8 +1,6 @@
 // Removal of strings of adjacent customers.
 #pragma once
 
-#include <algorithm>
-
 #include "randomness.h"
 #include "search/route/edit.h"
 

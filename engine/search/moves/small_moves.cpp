@@ -1,16 +1,10 @@
 #include "search/moves/small_moves.h"
 
-#include <algorithm>
 #include <cmath>
 
-#include "rules/shift.h"
 #include "search/moves/operations.h"
 #include "search/moves/rewrite.h"
-#include "search/route/edit.h"
-#include "search/route/refresh.h"
 #include "search/route/resting.h"
-#include "search/route/routes.h"
-#include "search/route/state.h"
 
 namespace tandem {
 namespace {
@@ -102,11 +96,11 @@ bool SmallMoves::read(Changing& trip) {
     trip.row.clear();
     for (Int p = trip.first; p <= trip.last; ++p) {
         if (stops[p].kind == halt_stop) return false;
-        OperationStop here{static_cast<std::int32_t>(stops[p].node), nobody, p >= recovery};
+        OperationStop here{std::int32_t(stops[p].node), nobody, p >= recovery};
         if (has_window(stops[p])) take_on(trip, here.node);
         if (s < sorties.size() && sorties[s].launch == p && p < trip.last) {
             if (sorties[s].count > 1) return false;
-            here.flown = static_cast<std::int32_t>(sorties[s].nodes[0]);
+            here.flown = std::int32_t(sorties[s].nodes[0]);
             recovery = sorties[s].recovery;
             take_on(trip, here.flown);
             ++s;
@@ -128,7 +122,7 @@ void SmallMoves::note(Int trip, Int first, Int last) {
     const OperationRow& row = this->trip(trip).row;
     for (Int place = first; place <= last; ++place) {
         const OperationStop& stop = row[place];
-        const auto number = static_cast<std::int32_t>(trip), at = static_cast<std::int32_t>(place);
+        const auto number = std::int32_t(trip), at = std::int32_t(place);
         if (stop.node >= data_.num_depots) served(stop.node) = {number, at, false};
         if (stop.flown != nobody) served(stop.flown) = {number, at, true};
     }
@@ -241,7 +235,7 @@ bool SmallMoves::trade(Int node) {
     }
     const auto put = [](const Draft& draft, const Served& at, Int who) {
         OperationStop& stop = draft.row[at.place - draft.span.first];
-        (at.flown ? stop.flown : stop.node) = static_cast<std::int32_t>(who);
+        (at.flown ? stop.flown : stop.node) = std::int32_t(who);
     };
     const TripSpan from = around(node), to = around(other);
     if (one.trip == two.trip && from.first < to.last && to.first < from.last) {

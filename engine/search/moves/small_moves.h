@@ -6,13 +6,9 @@
 // problem with drone, Transportation Science 52:965-981.
 #pragma once
 
-#include <array>
 #include <initializer_list>
 
 #include "randomness.h"
-#include "rules/load.h"
-#include "search/moves/operation_row.h"
-#include "search/route/layout.h"
 #include "search/scratch.h"
 
 namespace tandem {
@@ -81,8 +77,8 @@ private:
 
     bool coin() const { return uniform(searcher_.rng) < 0.5; }
     Int random(Int bound) const { return below(searcher_.rng, bound); }
-    Changing& trip(Int number) { return trips_[static_cast<std::size_t>(number)]; }
-    const Changing& trip(Int number) const { return trips_[static_cast<std::size_t>(number)]; }
+    Changing& trip(Int number) { return trips_[std::size_t(number)]; }
+    const Changing& trip(Int number) const { return trips_[std::size_t(number)]; }
     Served& served(Int node) const { return searcher_.scratch->served[node]; }
 
     Int neighbour(Int node) const;

@@ -1,11 +1,8 @@
 #include "search/moves/split.h"
 
-#include <algorithm>
-#include <array>
 #include <utility>
 
 #include "randomness.h"
-#include "rules/leg.h"
 #include "search/moves/operations.h"
 
 namespace tandem {
@@ -56,8 +53,7 @@ void shift(View<Line, 1> line, Int one, Int to) {
 Places shuffle(const ProblemData& data, View<Line, 1> line, Int length,
                View<std::uint64_t, 1> rng) {
     const Int count = length - 2;
-    const Change change =
-        changes[static_cast<std::size_t>(below(rng, static_cast<Int>(changes.size())))];
+    const Change change = changes[std::size_t(below(rng, Int(changes.size())))];
     const Int one = 1 + below(rng, count);
     const Int other = place_near(data, line, count, one, rng);
     if (change == Change::keep || other == one) return {1, 0};

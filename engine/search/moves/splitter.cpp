@@ -1,15 +1,6 @@
 #include "search/moves/splitter.h"
 
-#include <algorithm>
-#include <array>
-
-#include "rules/flight.h"
-#include "rules/leg.h"
-#include "rules/rates.h"
-#include "rules/window.h"
 #include "search/moves/operations.h"
-#include "search/moves/split.h"
-#include "vectors.h"
 
 namespace tandem {
 namespace {
@@ -75,7 +66,7 @@ public:
     }
 
 private:
-    static std::size_t at(Int place) { return static_cast<std::size_t>(place); }
+    static std::size_t at(Int place) { return std::size_t(place); }
 
     // Let operations begin at a place, up to where all costs so much, and fly there.
     void begin_at(Int place, double cost) {
@@ -84,8 +75,8 @@ private:
         scratch_.cost[place] = cost;
         scratch_.loops[place] = 0.0;
         scratch_.looped_until[place] = place + 1;
-        scratch_.drive[place] = static_cast<double>(here.drive - stays);
-        scratch_.distance[place] = static_cast<double>(here.distance);
+        scratch_.drive[place] = double(here.drive - stays);
+        scratch_.distance[place] = double(here.distance);
         if (!data_.strategy.crossings || place == 0 || place == length_ - 1 || !flies_[here.node])
             return;
         const LegRow inward = legs_to(data_.back, type_.drone_travel, here.node);
@@ -95,8 +86,8 @@ private:
             const Int from = line_[place - back].node;
             Leg way = leg_from(inward, from);
             if (!is_launch_place(data_.no_launch, from)) way.duration = unreachable_leg;
-            out.duration[at(longest_operation - 1 - back)] = static_cast<double>(way.duration);
-            out.distance[at(longest_operation - 1 - back)] = static_cast<double>(way.distance);
+            out.duration[at(longest_operation - 1 - back)] = double(way.duration);
+            out.distance[at(longest_operation - 1 - back)] = double(way.distance);
         }
     }
 
@@ -151,24 +142,22 @@ private:
         const Leg home = leg_to(legs_from(data_.leg, type_.home_travel, spared.node), to.node);
         const Int back = places_by_air_[spared.node].service_duration() + home.duration;
         if (!can_last(type_, back)) return;
-        const auto drive_until = static_cast<double>(to.drive - spared.spared_drive);
-        const auto distance_until = static_cast<double>(to.distance - spared.spared_distance);
-        const auto handled = static_cast<double>(handling_duration(type_));
+        const auto drive_until = double(to.drive - spared.spared_drive);
+        const auto distance_until = double(to.distance - spared.spared_distance);
+        const auto handled = double(handling_duration(type_));
         const SplitScratch::WaysOut& out = scratch_.out[flown];
         for (Int i = first; i < flown; i += at_once) {
             const Int way = i + longest_operation - 1 - flown;
-            const Some flight = some(out.duration.data(), way) + static_cast<double>(back);
-            const Some distance =
-                some(out.distance.data(), way) + static_cast<double>(home.distance);
+            const Some flight = some(out.duration.data(), way) + double(back);
+            const Some distance = some(out.distance.data(), way) + double(home.distance);
             const Some airborne = larger(flight, drive_until - some(&scratch_.drive[0], i));
-            const Some stops = static_cast<double>(j - i - 1) - some(ascending.data(), 0);
+            const Some stops = double(j - i - 1) - some(ascending.data(), 0);
             const Some alone = drive_cost(rate_, distance_until - some(&scratch_.distance[0], i)) +
                                stops_cost(rate_, stops);
             const Some cost = some(&scratch_.cost[0], i) +
                               crossing_cost(rate_, airborne + handled, airborne, distance, alone);
-            const Some allowed =
-                where_at_most(counted_until(type_, flight, airborne),
-                              static_cast<double>(endurance_of(type_)), cost, infinite_cost);
+            const Some allowed = where_at_most(counted_until(type_, flight, airborne),
+                                               double(endurance_of(type_)), cost, infinite_cost);
             if (least_of(allowed) <= best.cost) take_best(allowed, i, flown, j, best);
         }
     }
@@ -201,8 +190,7 @@ private:
         const Flight flight = way_by_air(data_, type_, places_by_air_[customer], line_[i].node,
                                          customer, line_[j].node)
                                   .flight;
-        const Int drive =
-            line_[j].drive - line_[flown].spared_drive - static_cast<Int>(scratch_.drive[i]);
+        const Int drive = line_[j].drive - line_[flown].spared_drive - Int(scratch_.drive[i]);
         return flight.can_wait(std::max(Int{0}, drive - flight.duration()));
     }
 

@@ -8,7 +8,6 @@
 #pragma once
 
 #include "search/moves/split.h"
-#include "search/scratch.h"
 
 namespace tandem {
 

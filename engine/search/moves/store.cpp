@@ -1,14 +1,8 @@
 #include "search/moves/store.h"
 
-#include <algorithm>
-#include <limits>
-
-#include "guard.h"
-#include "randomness.h"
 #include "search/anneal.h"
 #include "search/moves/best_part.h"
 #include "search/moves/other_end.h"
-#include "search/moves/recreate.h"
 #include "search/moves/resplit.h"
 #include "search/moves/retype.h"
 #include "search/moves/ruin.h"
@@ -19,7 +13,6 @@
 #include "search/route/rarer.h"
 #include "search/route/refresh.h"
 #include "search/route/state.h"
-#include "search/scratch.h"
 #include "search/search.h"
 
 namespace tandem {

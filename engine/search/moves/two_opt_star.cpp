@@ -1,10 +1,7 @@
 #include "search/moves/two_opt_star.h"
 
-#include <algorithm>
 #include <limits>
 
-#include "rules/leg.h"
-#include "rules/load.h"
 #include "rules/shift.h"
 #include "search/route/edit.h"
 #include "search/route/refresh.h"
@@ -69,24 +66,23 @@ double tail_saving(const ProblemData& data, const Fleet& fleet, Cut a, Cut b) {
     }
     const Rate& rate = data.rate[k];
     const Rate& rate_by = data.rate[by];
-    double cost = static_cast<double>(to_other.distance - here.leg) * rate.distance +
-                  static_cast<double>(to_one.distance - there.leg) * rate_by.distance;
+    double cost = double(to_other.distance - here.leg) * rate.distance +
+                  double(to_one.distance - there.leg) * rate_by.distance;
     if (home != home_by) {
         if (behind_there.kind != end_stop) {
-            cost += static_cast<double>(longer_home(legs, fleet, b.slot, home)) * rate.distance;
+            cost += double(longer_home(legs, fleet, b.slot, home)) * rate.distance;
         }
         if (behind_here.kind != end_stop) {
-            cost +=
-                static_cast<double>(longer_home(legs, fleet, a.slot, home_by)) * rate_by.distance;
+            cost += double(longer_home(legs, fleet, a.slot, home_by)) * rate_by.distance;
         }
     }
     if (rate.distance != rate_by.distance) {
         const Int longer =
             rest_distance(fleet, b.slot, b.stop + 1) - rest_distance(fleet, a.slot, a.stop + 1);
-        cost += static_cast<double>(longer) * (rate.distance - rate_by.distance);
+        cost += double(longer) * (rate.distance - rate_by.distance);
     }
     const Int more = (fleet.route[b.slot].length - b.stop) - (fleet.route[a.slot].length - a.stop);
-    return cost + static_cast<double>(more) * (rate.stop - rate_by.stop);
+    return cost + double(more) * (rate.stop - rate_by.stop);
 }
 
 // Tell whether a trip up to cut `a`, which goes on behind cut `b`, may carry all.
@@ -165,7 +161,7 @@ double cost_apart(const ProblemData& data, const Fleet& fleet, Cut a) {
     const Stop& stop = fleet.stop(a.slot, a.stop);
     const Int detour = leg(legs, stop.node, type.ends_at).distance - stop.leg +
                        leg(legs, type.begins_at, fleet.stop(a.slot, a.stop + 1).node).distance;
-    return data.rate[k].fixed + static_cast<double>(detour) * data.rate[k].distance;
+    return data.rate[k].fixed + double(detour) * data.rate[k].distance;
 }
 
 // Return the cut behind which a tail is best swapped with that behind `a`.

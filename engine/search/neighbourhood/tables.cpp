@@ -9,12 +9,12 @@ namespace {
 
 // Write all customers in their order; from where all neighbours were met, it begins anew.
 void walk(View<const std::int32_t, 2> near, Int num_depots, View<Int, 1> node) {
-    std::vector<bool> was_met(static_cast<std::size_t>(near.size()));
-    const auto is_new = [&](Int at) { return at >= 0 && !was_met[static_cast<std::size_t>(at)]; };
+    std::vector<bool> was_met(std::size_t(near.size()));
+    const auto is_new = [&](Int at) { return at >= 0 && !was_met[std::size_t(at)]; };
     Int number = num_depots;
     for (Int start = num_depots; start < near.size(); ++start) {
         for (Int at = start; is_new(at);) {
-            was_met[static_cast<std::size_t>(at)] = true;
+            was_met[std::size_t(at)] = true;
             node[number++] = at;
             const View<const std::int32_t, 1> others = near[at];
             const auto next = std::find_if(others.begin(), others.end(), is_new);

@@ -1,12 +1,5 @@
 #include "search/route/batteries.h"
 
-#include <algorithm>
-
-#include "rules/clock.h"
-#include "rules/energy.h"
-#include "rules/flight.h"
-#include "rules/load.h"
-
 namespace tandem {
 
 void charge(NodeTable places, const TravelLegs& legs, const TravelLegs& homeward,

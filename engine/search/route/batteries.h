@@ -1,8 +1,6 @@
 // What sorties take of batteries, and what these have, on a route that is timed.
 #pragma once
 
-#include "rules/leg.h"
-#include "rules/window.h"
 #include "search/route/block.h"
 
 namespace tandem {

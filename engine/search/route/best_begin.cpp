@@ -1,11 +1,7 @@
 #include "search/route/best_begin.h"
 
-#include <algorithm>
-#include <cstddef>
 #include <tuple>
 
-#include "rules/rates.h"
-#include "rules/shift.h"
 #include "search/route/routes.h"
 
 namespace tandem {
@@ -17,7 +13,7 @@ const std::optional<Begun>& BestBegin::of(const AnyBegin& route,
     turns_.clear();
     best_.reset();
     for (std::int32_t number = route.last; number >= 0;) {
-        const TimedCustomer& customer = timed[static_cast<std::size_t>(number)];
+        const TimedCustomer& customer = timed[std::size_t(number)];
         missed += lateness_cost(data_, customer.node, customer.served.at(first)) +
                   waiting_cost(data_, customer.node, customer.reached.at(first));
         note(customer, first);
@@ -31,7 +27,7 @@ const std::optional<Begun>& BestBegin::of(const AnyBegin& route,
     for (const Turn& turn : turns_) {
         const Int begin = std::min(turn.begin, last);
         if (begin > at) {
-            missed += once + slope * static_cast<double>(begin - at);
+            missed += once + slope * double(begin - at);
             once = 0.0;
             at = begin;
             begin_at(route, begin, missed);

@@ -1,7 +1,6 @@
 // When a route had better begin of which all else is given.
 #pragma once
 
-#include <cstdint>
 #include <optional>
 #include <vector>
 

@@ -1,16 +1,7 @@
-#include "search/route/block.h"
 
-#include <algorithm>
 
-#include "rules/driving.h"
-#include "rules/energy.h"
-#include "rules/flight.h"
 #include "rules/launch_place.h"
-#include "rules/load.h"
-#include "rules/pair.h"
-#include "rules/shift.h"
 #include "search/route/batteries.h"
-#include "search/route/lags.h"
 
 namespace tandem {
 namespace {
@@ -19,8 +10,7 @@ namespace {
 Int held_by_windows(const DroneData& drone_data, const Sortie& sortie, Int node, Int takeoff) {
     Front front{takeoff};
     Int back = none, here = node;
-    for (Int index = 0; index < sortie.count; ++index) {
-        const Int next = sortie.nodes[index];
+    for (const Int next : sortie.customers()) {
         const Windows place = drone_data.places[next];
         const Int flight = leg(drone_data.legs, here, next).duration;
         front.drive(flight);
@@ -36,8 +26,7 @@ Int held_by_windows(const DroneData& drone_data, const Sortie& sortie, Int node,
 Int back_at(const DroneData& drone_data, const Sortie& sortie, Int node, Int takeoff) {
     Front front{takeoff};
     Int here = node;
-    for (Int index = 0; index < sortie.count; ++index) {
-        const Int next = sortie.nodes[index];
+    for (const Int next : sortie.customers()) {
         front.serve(drone_data.places[next], leg(drone_data.legs, here, next).duration);
         here = next;
     }
@@ -208,11 +197,8 @@ bool is_on_its_way(View<const Pair, 1> pairs, View<const Sortie, 1> sorties, Int
     for (Int other = oldest; other < sorties.size() && sorties[other].launch <= p; ++other) {
         const Sortie& fetching = sorties[other];
         if (other == index || fetching.recovery != p || fetching.state == sortie_done) continue;
-        for (Int visit = 0; visit < fetching.count; ++visit) {
-            const Int node = fetching.nodes[visit];
-            if (is_pickup(pairs, node) &&
-                std::find(sortie.nodes, sortie.nodes + sortie.count, pairs[node].partner) !=
-                    sortie.nodes + sortie.count) {
+        for (const Int node : fetching.customers()) {
+            if (is_pickup(pairs, node) && sortie.serves(pairs[node].partner)) {
                 return true;
             }
         }
@@ -322,9 +308,7 @@ void note_idle(NodeTable places, View<Stop, 1> stops, Int first, Int last) {
 // Return the zones with hours to which a sortie comes that is launched at a node.
 Int zones_met(const ProblemData& data, const Sortie& sortie, Int node) {
     Int zones = zones_at(data.zones, node) | zones_at(data.zones, sortie.home);
-    for (Int visit = 0; visit < sortie.count; ++visit) {
-        zones |= zones_at(data.zones, sortie.nodes[visit]);
-    }
+    for (const Int node : sortie.customers()) zones |= zones_at(data.zones, node);
     return zones;
 }
 

@@ -3,21 +3,12 @@
 // By time segments `(d, c)`, which docs/develop/route-times.md derives.
 #pragma once
 
-#include <algorithm>
-#include <optional>
-
-#include "rules/breaks.h"
-#include "rules/clock.h"
 #include "rules/driving.h"
 #include "rules/hours.h"
-#include "rules/leg.h"
 #include "rules/segment.h"
-#include "rules/shift.h"
 #include "rules/start.h"
-#include "rules/window.h"
 #include "search/route/drone_data.h"
 #include "search/route/lags.h"
-#include "search/route/layout.h"
 
 namespace tandem {
 

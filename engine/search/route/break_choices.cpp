@@ -1,23 +1,11 @@
 #include "search/route/break_choices.h"
 
-#include <algorithm>
-#include <array>
-#include <cstddef>
-#include <cstdint>
-#include <optional>
 #include <utility>
-#include <vector>
 
-#include "rules/load.h"
-#include "rules/shift.h"
-#include "rules/start.h"
-#include "search/route/best_begin.h"
 #include "search/route/block.h"
 #include "search/route/break_ways.h"
-#include "search/route/breaks.h"
 #include "search/route/look_backs.h"
 #include "search/route/pricing.h"
-#include "search/route/rarer.h"
 #include "search/route/routes.h"
 
 namespace tandem {
@@ -51,7 +39,7 @@ public:
           begins_count_(is_priced &&
                         (any_follows_departure(type_) || data.evaluation[route.type].timed)),
           begins_differ_(begins_count_),
-          soonest_(static_cast<std::size_t>(stops_.size()), far),
+          soonest_(std::size_t(stops_.size()), far),
           waiting_(is_joined() ? std::max(Int{0}, route.end - route.cum - begin_of(type_, stops))
                                : 0) {
         for (Int p = 0; !is_lean && is_priced_ && p < stops_.size(); ++p) {
@@ -112,7 +100,7 @@ private:
     // Tell whether all lasts as long at any time.
     bool is_joined() const { return is_lean || is_steady(type_); }
 
-    const Chosen& break_at(Int index) const { return breaks_[static_cast<std::size_t>(index)]; }
+    const Chosen& break_at(Int index) const { return breaks_[std::size_t(index)]; }
 
     // Have a way go on from stop `p`, which it has reached, by each of the windows there. In place.
     void serve(Int p, Way& way) {
@@ -156,7 +144,7 @@ private:
             return true;
         }
         timed_.push_back({reached, way.now, node, way.timed});
-        way.timed = static_cast<std::int32_t>(timed_.size()) - 1;
+        way.timed = std::int32_t(timed_.size()) - 1;
         way.late += lateness_cost(data_, node, way.now.at(begin));
         for (std::size_t index = 0; index < most_compared; ++index) {
             const Int then = compared_[index];
@@ -185,7 +173,7 @@ private:
     }
 
     void leave(Int p, const Way& way) {
-        Int& soonest = soonest_[static_cast<std::size_t>(p)];
+        Int& soonest = soonest_[std::size_t(p)];
         soonest = std::min(soonest, way.now.at(way.begins.first));
         if (p + 1 == stops_.size()) return end(way);
         if (stops_[p].kind == end_stop) {
@@ -208,10 +196,10 @@ private:
         Way come = leg.way;
         come.now = behind(leg.there, setup_after(data_.setup, stops_[p].node, stops_[p + 1].node));
         if (may_wait_for_next(come, leg.there)) keep(p + 1, come);
-        if (leg.way.next == static_cast<Int>(breaks_.size())) return;
+        if (leg.way.next == Int(breaks_.size())) return;
         OnLeg rested = leg;
-        for (Int index = leg.way.next; index < static_cast<Int>(breaks_.size()); ++index) {
-            rested.way.next = static_cast<std::int32_t>(index) + 1;
+        for (Int index = leg.way.next; index < Int(breaks_.size()); ++index) {
+            rested.way.next = std::int32_t(index) + 1;
             if (!is_among(stops_[p].heavy, break_at(index).number) &&
                 !is_put_off(p, leg, break_at(index).number))
                 rest(p, rested, index);
@@ -231,8 +219,7 @@ private:
     // Narrow when a route begins to what lets the next break begin at the end of a leg, or later,
     // or be left out as the route ends before. In place; false if nothing does.
     bool may_wait_for_next(Way& way, TimeSegment there) const {
-        return way.next == static_cast<Int>(breaks_.size()) ||
-               may_be_left_out(way.next, way.begins, there);
+        return way.next == Int(breaks_.size()) || may_be_left_out(way.next, way.begins, there);
     }
 
     // Tell whether a break had better be taken behind the next stop: it opens no sooner than that
@@ -275,7 +262,7 @@ private:
                                                   : travel(p, leg.here);
         leg.place = place;
         taken_.push_back({{number, p, place}, leg.way.last});
-        leg.way.last = static_cast<std::int32_t>(taken_.size()) - 1;
+        leg.way.last = std::int32_t(taken_.size()) - 1;
         drive(p, leg);
     }
 
@@ -317,14 +304,14 @@ private:
 
     // Note a way that has come to the end, unless a break is due that it lacks.
     void end(Way way) {
-        for (Int index = 0; index < static_cast<Int>(breaks_.size()); ++index) {
+        for (Int index = 0; index < Int(breaks_.size()); ++index) {
             if (index < way.next && !is_among(way.left_out, index)) continue;
             if (!may_be_left_out(index, way.begins, way.now)) return;
         }
         PlacedBreaks placed;
         Int unpaid = 0;
         for (std::int32_t number = way.last; number >= 0;) {
-            const Taken& taken = taken_[static_cast<std::size_t>(number)];
+            const Taken& taken = taken_[std::size_t(number)];
             placed = placed.with_more(0, taken.one);
             if (!is_paid(type_, taken.one.number)) unpaid += length_of(type_, taken.one.number);
             number = taken.before;
@@ -370,7 +357,7 @@ void note_soonest_of(const ProblemData& data, const Route& route, View<Stop, 1> 
     Choosing<is_lean> choosing(data, route, stops, no_bar, false);
     choosing.run();
     for (Int p = 0; p < route.length; ++p) {
-        stops[p].leave = choosing.soonest()[static_cast<std::size_t>(p)];
+        stops[p].leave = choosing.soonest()[std::size_t(p)];
     }
 }
 

@@ -1,11 +1,8 @@
 // Ways to take breaks on a route whose order is given, among which is the cheapest.
 #pragma once
 
-#include <vector>
-
 #include "search/route/best_begin.h"
 #include "search/route/breaks.h"
-#include "search/route/layout.h"
 
 namespace tandem {
 

@@ -1,23 +1,12 @@
 #include "search/route/break_moves.h"
 
-#include <algorithm>
-#include <array>
-#include <cstddef>
 #include <utility>
-#include <vector>
 
-#include "rules/breaks.h"
-#include "rules/driving.h"
-#include "rules/hub.h"
-#include "rules/shift.h"
 #include "search/route/break_choices.h"
-#include "search/route/breaks.h"
 #include "search/route/freshness.h"
-#include "search/route/lags.h"
 #include "search/route/least_cost.h"
 #include "search/route/pricing.h"
 #include "search/route/rest_placing.h"
-#include "search/route/routes.h"
 #include "search/route/settling.h"
 
 namespace tandem {

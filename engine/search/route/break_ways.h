@@ -1,13 +1,7 @@
 // Ways along a route by which breaks are taken.
 #pragma once
 
-#include <array>
-#include <cstddef>
-#include <cstdint>
-#include <type_traits>
-
 #include "search/route/breaks.h"
-#include "search/route/layout.h"
 
 namespace tandem {
 

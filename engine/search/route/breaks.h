@@ -1,15 +1,9 @@
 // Which breaks a route has, and where they are taken.
 #pragma once
 
-#include <algorithm>
-#include <array>
-#include <cstddef>
-
-#include "rules/breaks.h"
 #include "rules/driving.h"
 #include "rules/hub.h"
 #include "search/route/lags.h"
-#include "search/route/layout.h"
 
 namespace tandem {
 
@@ -24,13 +18,13 @@ public:
     DueBreaks(const VehicleType& type, Int begin) {
         for (Int number = 0; number < num_breaks(type); ++number) {
             if (!over_before(type, number, begin)) {
-                number_[static_cast<std::size_t>(count_++)] = number;
+                number_[std::size_t(count_++)] = number;
             }
         }
     }
 
     Int count() const { return count_; }
-    Int operator[](Int index) const { return number_[static_cast<std::size_t>(index)]; }
+    Int operator[](Int index) const { return number_[std::size_t(index)]; }
 
 private:
     Int count_ = 0;
@@ -113,7 +107,7 @@ public:
 
     Int begin() const { return begin_; }
     Int count() const { return count_; }
-    const One& operator[](Int index) const { return one_[static_cast<std::size_t>(index)]; }
+    const One& operator[](Int index) const { return one_[std::size_t(index)]; }
 
     // These on a route that begins no sooner than then.
     PlacedBreaks from(Int begin) const {
@@ -125,7 +119,7 @@ public:
     // These with another one at an index, instead of the one there.
     PlacedBreaks with(Int index, const One& one) const {
         PlacedBreaks next = *this;
-        next.one_[static_cast<std::size_t>(index)] = one;
+        next.one_[std::size_t(index)] = one;
         return next;
     }
 
@@ -155,9 +149,9 @@ public:
 private:
     void insert(Int index, const One& one) {
         for (Int next = count_; next > index; --next) {
-            one_[static_cast<std::size_t>(next)] = (*this)[next - 1];
+            one_[std::size_t(next)] = (*this)[next - 1];
         }
-        one_[static_cast<std::size_t>(index)] = one;
+        one_[std::size_t(index)] = one;
         ++count_;
     }
 

@@ -1,12 +1,9 @@
 #include "search/route/charging.h"
 
-#include <algorithm>
 #include <utility>
 
 #include "rules/hub.h"
-#include "search/route/flown_trips.h"
 #include "search/route/freshness.h"
-#include "search/route/routes.h"
 
 namespace tandem {
 namespace {

@@ -3,8 +3,6 @@
 
 #include "rules/drone_types.h"
 #include "rules/flight.h"
-#include "rules/leg.h"
-#include "rules/window.h"
 #include "search/route/layout.h"
 
 namespace tandem {

@@ -1,6 +1,5 @@
 #include "search/route/edit.h"
 
-#include <algorithm>
 #include <iterator>
 
 namespace tandem {
@@ -179,7 +178,7 @@ void keep_sorties(const Sequence& sequence, View<const Int, 1> halt_after, Remov
     const Int before = removed.count;
     for (const Sortie& sortie : sorties.first(route.sorties)) {
         if (!is_removed(sortie.launch) && !is_removed(sortie.recovery)) continue;
-        for (Int visit = 0; visit < sortie.count; ++visit) removed.mark(sortie.nodes[visit]);
+        for (const Int node : sortie.customers()) removed.mark(node);
     }
     drop_visits(sequence, removed.marked);
     // Where a shipment isn't flown any more, others may have been launched at its pickup.

@@ -1,7 +1,6 @@
 // Changes of a route's sequence: insertions, and the removal of marked customers.
 #pragma once
 
-#include "rules/pair.h"
 #include "search/route/layout.h"
 
 namespace tandem {

@@ -1,7 +1,5 @@
 #include "search/route/ends.h"
 
-#include "rules/leg.h"
-
 namespace tandem {
 
 void place_ends(const ProblemData& data, Int k, const Route& route, View<Stop, 1> stops) {

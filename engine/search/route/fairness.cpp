@@ -1,11 +1,5 @@
 #include "search/route/fairness.h"
 
-#include <algorithm>
-
-#include "rules/leg.h"
-#include "rules/load.h"
-#include "rules/pair.h"
-#include "search/route/rarer.h"
 #include "search/route/vehicles.h"
 
 namespace tandem {
@@ -25,9 +19,7 @@ double load_on(const ProblemData& data, const Fleet& fleet, Int slot) {
         if (stop.kind == customer_stop) load += amount_at(data, stop.node);
     }
     for (const Sortie& sortie : fleet.sortie[slot].first(route.sorties)) {
-        for (Int visit = 0; visit < sortie.count; ++visit) {
-            load += amount_at(data, sortie.nodes[visit]);
-        }
+        for (const Int node : sortie.customers()) load += amount_at(data, node);
     }
     return load;
 }

@@ -1,7 +1,5 @@
 #include "search/route/flown_trips.h"
 
-#include <algorithm>
-
 #include "search/route/drone_data.h"
 #include "search/route/lags.h"
 #include "search/route/routes.h"

@@ -1,17 +1,8 @@
 #include "search/route/freshness.h"
 
-#include <algorithm>
-
-#include "rules/drone_types.h"
-#include "rules/flown_trip.h"
 #include "rules/hub.h"
-#include "rules/load.h"
-#include "rules/pair.h"
-#include "rules/start.h"
-#include "rules/window.h"
 #include "search/route/charging.h"
 #include "search/route/lags.h"
-#include "search/route/rarer.h"
 
 namespace tandem {
 namespace {

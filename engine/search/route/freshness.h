@@ -2,12 +2,9 @@
 // nobody served behind another, for too long.
 #pragma once
 
-#include <algorithm>
-
 #include "rules/driving.h"
 #include "rules/holding.h"
 #include "search/route/flown_trips.h"
-#include "search/route/layout.h"
 #include "search/route/routes.h"
 
 namespace tandem {

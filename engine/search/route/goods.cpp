@@ -1,7 +1,5 @@
 #include "search/route/goods.h"
 
-#include <algorithm>
-
 namespace tandem {
 namespace {
 
@@ -38,8 +36,8 @@ bool take_goods(View<const Goods, 1> goods, Route& route, View<const Stop, 1> st
     }
     for (const Sortie& sortie : sorties.first(route.sorties)) {
         Trip& trip = trips[stops[sortie.launch].trip];
-        for (Int visit = 0; visit < sortie.count; ++visit) {
-            if (!take(goods[sortie.nodes[visit]], route, trip)) return false;
+        for (const Int node : sortie.customers()) {
+            if (!take(goods[node], route, trip)) return false;
         }
     }
     return route.trips < 2 || !parts_any(trips.first(route.trips));

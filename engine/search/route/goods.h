@@ -2,8 +2,6 @@
 #pragma once
 
 #include "rules/company.h"
-#include "rules/load.h"
-#include "search/route/layout.h"
 #include "search/route/rarer.h"
 
 namespace tandem {

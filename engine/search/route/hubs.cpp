@@ -1,7 +1,5 @@
 #include "search/route/hubs.h"
 
-#include <algorithm>
-
 #include "rules/hub.h"
 #include "search/route/rarer.h"
 

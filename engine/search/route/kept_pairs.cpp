@@ -1,10 +1,5 @@
 #include "search/route/kept_pairs.h"
 
-#include <algorithm>
-
-#include "rules/load.h"
-#include "rules/pair.h"
-
 namespace tandem {
 namespace {
 
@@ -20,9 +15,7 @@ bool keep_pairs(const ProblemData& data, View<const Sortie, 1> sorties, const Tr
         }
         return std::any_of(sorties.begin(), sorties.end(), [&](const Sortie& sortie) {
             return &sortie != delivering && sortie.launch >= trip.first &&
-                   sortie.recovery < behind &&
-                   std::find(sortie.nodes, sortie.nodes + sortie.count, pickup) !=
-                       sortie.nodes + sortie.count;
+                   sortie.recovery < behind && sortie.serves(pickup);
         });
     };
     WholePairs pairs(data.pair);

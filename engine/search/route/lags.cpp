@@ -1,6 +1,4 @@
-#include "search/route/lags.h"
 
-#include <algorithm>
 
 #include "search/route/block.h"
 

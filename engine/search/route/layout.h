@@ -12,14 +12,11 @@
 // drones). `docs/develop/route-times.md` derives what is made of them.
 #pragma once
 
-#include <memory>
-
 #include "deadline.h"
 #include "rows.h"
 #include "rules/fairness.h"
 #include "rules/leg.h"
 #include "rules/load.h"
-#include "rules/window.h"
 #include "search/route/move.h"
 
 namespace tandem {
@@ -88,6 +85,11 @@ struct Sortie {
     Int zones;  // with hours, that hold any of its places
     Int nodes[8];
     Int arrivals[8];  // at the customers
+
+    std::span<const Int> customers() const { return {nodes, std::size_t(count)}; }
+    bool serves(Int node) const {
+        return std::ranges::find(customers(), node) != customers().end();
+    }
 };
 
 struct Trip {

@@ -1,11 +1,6 @@
 #include "search/route/least_cost.h"
 
-#include <algorithm>
-
-#include "rules/driving.h"
-#include "rules/shift.h"
 #include "search/route/drone_data.h"
-#include "search/route/rarer.h"
 #include "search/route/refresh.h"
 #include "search/route/rest_placing.h"
 #include "search/route/routes.h"
@@ -38,8 +33,7 @@ Int least_airborne(const ProblemData& data, Int k, View<const Stop, 1> stops,
                    const Sortie& sortie) {
     const DroneData drone = drone_data_at(data, row_of_drone(data.type, k, sortie.drone));
     Int lasting = 0, here = stops[sortie.launch].node;
-    for (Int visit = 0; visit < sortie.count; ++visit) {
-        const Int next = sortie.nodes[visit];
+    for (const Int next : sortie.customers()) {
         lasting += leg(drone.legs, here, next).duration + drone.places[next].service_duration();
         here = next;
     }
@@ -120,9 +114,8 @@ LeastPrice least_cost(const ProblemData& data, const Fleet& fleet, Int slot) {
     }
     if (loads_cost(data, route.type)) cost += load_cost(data, fleet, slot);
     for (const Sortie& sortie : sorties.first(route.sorties)) {
-        for (Int visit = 0; visit < sortie.count; ++visit) {
-            cost += vehicle_cost_at(data.vehicle_cost, route.type, sortie.nodes[visit]);
-        }
+        for (const Int node : sortie.customers())
+            cost += vehicle_cost_at(data.vehicle_cost, route.type, node);
         cost += flight_cost(data, route.type, stops, sortie,
                             least_airborne(data, route.type, stops, sortie));
     }

@@ -1,12 +1,8 @@
 // Who looks back to stops of a route: those who must be served soon, or some time, behind others.
 #pragma once
 
-#include <cstddef>
-#include <cstdint>
 #include <vector>
 
-#include "rules/lag.h"
-#include "rules/pair.h"
 #include "rules/shift.h"
 #include "search/route/lags.h"
 #include "search/route/rarer.h"
@@ -32,7 +28,7 @@ public:
     void note(Int p, TimeSegment now, std::int32_t& noted) {
         if (empty() || asked(p).until < 0) return;
         noted_.push_back({now, p, noted});
-        noted = static_cast<std::int32_t>(noted_.size()) - 1;
+        noted = std::int32_t(noted_.size()) - 1;
     }
 
     // Return when service may begin at a stop that is reached so, behind all who come first.
@@ -77,8 +73,8 @@ public:
         if (empty()) return true;
         if (asked(p).is_ahead && !is_no_later(other.now, one.now)) return false;
         while (one.noted != other.noted) {
-            const Noted& mine = noted_[static_cast<std::size_t>(one.noted)];
-            const Noted& instead = noted_[static_cast<std::size_t>(other.noted)];
+            const Noted& mine = noted_[std::size_t(one.noted)];
+            const Noted& instead = noted_[std::size_t(other.noted)];
             const Asked& at = asked(mine.stop);
             if (at.until >= p && (!is_no_later(instead.start, mine.start) ||
                                   (at.is_awaited && !is_no_later(mine.start, instead.start)))) {
@@ -105,13 +101,13 @@ private:
         std::int32_t before;
     };
 
-    const Asked& asked(Int p) const { return asked_[static_cast<std::size_t>(p)]; }
+    const Asked& asked(Int p) const { return asked_[std::size_t(p)]; }
 
     TimeSegment noted_at(std::int32_t number, Int stop) const {
-        while (noted_[static_cast<std::size_t>(number)].stop != stop) {
-            number = noted_[static_cast<std::size_t>(number)].before;
+        while (noted_[std::size_t(number)].stop != stop) {
+            number = noted_[std::size_t(number)].before;
         }
-        return noted_[static_cast<std::size_t>(number)].start;
+        return noted_[std::size_t(number)].start;
     }
 
     // Call `visit` with each stop that a customer's looks back to, how long after it service is to
@@ -134,15 +130,15 @@ private:
     }
 
     void note_asked() {
-        asked_.resize(static_cast<std::size_t>(stops_.size()));
+        asked_.resize(std::size_t(stops_.size()));
         for (Int p = 0; p < stops_.size(); ++p) {
-            Asked& asked = asked_[static_cast<std::size_t>(p)];
+            Asked& asked = asked_[std::size_t(p)];
             if (stops_[p].kind == start_stop && time_aboard_counts(data_) && p > 0) {
                 asked.until = p;
                 while (stops_[asked.until].kind != end_stop) ++asked.until;
             }
             for_each_before(p, [&](Int q, Interval within, bool) {
-                Asked& before = asked_[static_cast<std::size_t>(q)];
+                Asked& before = asked_[std::size_t(q)];
                 before.until = p;
                 before.is_awaited = before.is_awaited || within.first > 0;
             });

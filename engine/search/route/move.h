@@ -1,12 +1,8 @@
 // What an insertion changes: a list of placements.
 #pragma once
 
-#include <algorithm>
-#include <array>
-#include <cstdint>
 #include <span>
 
-#include "problem/instance.h"
 #include "rules/pair.h"
 
 namespace tandem {

@@ -1,13 +1,9 @@
 #include "search/route/pricing.h"
 
 #include "rules/hub.h"
-#include "rules/shift.h"
-#include "rules/start.h"
 #include "search/route/charging.h"
 #include "search/route/freshness.h"
 #include "search/route/lags.h"
-#include "search/route/rarer.h"
-#include "search/route/routes.h"
 #include "search/route/settling.h"
 #include "search/route/stop_loads.h"
 

@@ -1,8 +1,6 @@
 // What the search looks at only where a rarer rule is stated.
 #pragma once
 
-#include <algorithm>
-
 #include "search/route/layout.h"
 
 namespace tandem {

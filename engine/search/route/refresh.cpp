@@ -1,38 +1,19 @@
 #include "search/route/refresh.h"
 
-#include <algorithm>
-#include <limits>
-
 #include "randomness.h"
-#include "rules/breaks.h"
-#include "rules/clock.h"
-#include "rules/driving.h"
-#include "rules/flown_trip.h"
 #include "rules/hours.h"
-#include "rules/hub.h"
-#include "rules/load.h"
-#include "rules/pair.h"
-#include "rules/shift.h"
-#include "rules/start.h"
-#include "rules/window.h"
 #include "search/route/break_choices.h"
 #include "search/route/break_moves.h"
-#include "search/route/breaks.h"
 #include "search/route/charging.h"
 #include "search/route/ends.h"
 #include "search/route/freshness.h"
 #include "search/route/goods.h"
 #include "search/route/hubs.h"
 #include "search/route/kept_pairs.h"
-#include "search/route/lags.h"
 #include "search/route/least_cost.h"
-#include "search/route/pricing.h"
-#include "search/route/rarer.h"
 #include "search/route/rest_placing.h"
 #include "search/route/resting.h"
-#include "search/route/routes.h"
 #include "search/route/settling.h"
-#include "search/route/state.h"
 #include "search/route/stop_loads.h"
 
 namespace tandem {
@@ -300,9 +281,7 @@ void note_places(View<Place, 1> places, const Route& route, View<const Stop, 1> 
     }
     for (Int s = 0; s < route.sorties; ++s) {
         const Sortie& sortie = sorties[s];
-        for (Int visit = 0; visit < sortie.count; ++visit) {
-            places[sortie.nodes[visit]] = {slot, nowhere, s};
-        }
+        for (const Int node : sortie.customers()) places[node] = {slot, nowhere, s};
     }
 }
 

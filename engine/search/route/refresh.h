@@ -1,7 +1,6 @@
 // Bringing a route up to date after its sequence has changed.
 #pragma once
 
-#include "search/route/layout.h"
 #include "search/route/pricing.h"
 
 namespace tandem {

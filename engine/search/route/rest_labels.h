@@ -1,13 +1,6 @@
 // Ways in which a driver has come somewhere on a route, of which those are kept that may be best.
 #pragma once
 
-#include <algorithm>
-#include <array>
-#include <cstddef>
-#include <cstdint>
-#include <vector>
-
-#include "rules/driving.h"
 #include "search/route/waits.h"
 
 namespace tandem {
@@ -99,22 +92,19 @@ private:
 // The rests of all labels, each of which knows its last one.
 class TakenRests {
 public:
-    const TakenRest& operator[](std::int32_t index) const {
-        return taken_[static_cast<std::size_t>(index)];
-    }
+    const TakenRest& operator[](std::int32_t index) const { return taken_[std::size_t(index)]; }
     std::int32_t count() const { return count_; }
     bool is_full() const { return count_ == most; }
 
     // Note a rest; returns its number.
     std::int32_t add(const TakenRest& rest) {
-        taken_[static_cast<std::size_t>(count_)] = rest;
+        taken_[std::size_t(count_)] = rest;
         return count_++;
     }
 
     // Let a driver have taken a rest more on the leg from stop `p`. In place.
     void note(RestLabel& label, Int p, Int number, RestPlace place) {
-        label.last = add({static_cast<std::int32_t>(p), label.last,
-                          static_cast<std::int8_t>(number), static_cast<std::int8_t>(place)});
+        label.last = add({std::int32_t(p), label.last, std::int8_t(number), std::int8_t(place)});
         ++label.count;
         ++label.on_leg;
         label.timed = -1;

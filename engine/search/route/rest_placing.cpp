@@ -1,18 +1,7 @@
-#include "search/route/rest_placing.h"
 
-#include <algorithm>
-#include <array>
-#include <cstddef>
-#include <cstdint>
-#include <vector>
 
-#include "rules/leg.h"
-#include "search/route/block.h"
 #include "search/route/rarer.h"
-#include "search/route/rest_labels.h"
-#include "search/route/rest_route.h"
 #include "search/route/rest_ways.h"
-#include "search/route/waits.h"
 
 namespace tandem {
 namespace {
@@ -155,7 +144,7 @@ private:
         const LegAhead way = route_.way_from(last, ahead, false);
         for (RestLabel label : inside_.there()) {
             if (label.timed < 0 || waits_.count()) time_inside(label, first, last, reached);
-            const Timed& timed = timed_[static_cast<std::size_t>(label.timed)];
+            const Timed& timed = timed_[std::size_t(label.timed)];
             if (!timed.done) continue;
             if (waits_.count()) waits_.pass({first, last + 1}, {sortie_, behind_}, label.waited);
             label.time = reached.time;
@@ -187,7 +176,7 @@ private:
         sums.driver = reached.driver;
         const bool done = time_block(route_.truck, stops_, sorties_, first, sums) == last;
         const Stop& stop = stops_[first];
-        label.timed = static_cast<std::int32_t>(timed_.size());
+        label.timed = std::int32_t(timed_.size());
         timed_.push_back({stop.d, stop.c, stop.lo, stop.hi, stop.dep, done});
         for (Int q = first; q < last; ++q) {
             const Int excess =
@@ -199,7 +188,7 @@ private:
 
     // When a label leaves a stop of the block that is timed so.
     const Left& left_of(const RestLabel& label, Int stop, Int stops) const {
-        return left_[static_cast<std::size_t>(label.timed * stops + stop)];
+        return left_[std::size_t(label.timed * stops + stop)];
     }
 
     // Return the sum of the take-offs of drones that are out when a stop is left.

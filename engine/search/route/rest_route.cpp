@@ -1,10 +1,5 @@
 #include "search/route/rest_route.h"
 
-#include <algorithm>
-
-#include "rules/leg.h"
-#include "rules/shift.h"
-
 namespace tandem {
 namespace {
 

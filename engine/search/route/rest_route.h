@@ -1,11 +1,8 @@
 // A route on which those rest whom rules ask to, and what of it hangs on no rest.
 #pragma once
 
-#include <array>
 #include <utility>
 
-#include "rules/driving.h"
-#include "search/route/block.h"
 #include "search/route/breaks.h"
 #include "search/route/rest_labels.h"
 #include "search/route/rest_placing.h"

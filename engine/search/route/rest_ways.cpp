@@ -1,7 +1,5 @@
 #include "search/route/rest_ways.h"
 
-#include <optional>
-
 namespace tandem {
 namespace {
 

@@ -2,7 +2,6 @@
 // those on which a driver rests as late as allowed, or while waiting. Mostly one of them is best.
 #pragma once
 
-#include "search/route/rest_labels.h"
 #include "search/route/rest_route.h"
 
 namespace tandem {

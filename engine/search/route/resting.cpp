@@ -1,14 +1,8 @@
 #include "search/route/resting.h"
 
-#include <algorithm>
 #include <utility>
 
-#include "rules/leg.h"
-#include "rules/shift.h"
-#include "rules/start.h"
 #include "search/route/breaks.h"
-#include "search/route/lags.h"
-#include "search/route/rarer.h"
 #include "search/route/refresh.h"
 #include "search/route/rest_placing.h"
 #include "search/route/routes.h"

@@ -1,20 +1,10 @@
 #include "search/route/routes.h"
 
-#include <algorithm>
-
-#include "rules/drone_types.h"
-#include "rules/flight.h"
-#include "rules/flown_trip.h"
 #include "rules/launch_place.h"
-#include "rules/leg.h"
-#include "rules/shift.h"
-#include "rules/start.h"
 #include "search/route/block.h"
 #include "search/route/breaks.h"
 #include "search/route/ends.h"
 #include "search/route/flown_trips.h"
-#include "search/route/lags.h"
-#include "search/route/rarer.h"
 #include "search/route/rest_placing.h"
 #include "search/route/resting.h"
 
@@ -38,8 +28,7 @@ bool halts_in_order(const ProblemData& data, const Route& route, View<const Stop
                             return stop.kind == customer_stop && stop.node == node;
                         }) ||
             std::any_of(flown.begin(), flown.end(), [&](const Sortie& sortie) {
-                return sortie.recovery < p && std::find(sortie.nodes, sortie.nodes + sortie.count,
-                                                        node) != sortie.nodes + sortie.count;
+                return sortie.recovery < p && sortie.serves(node);
             });
         if (!is_served) return false;
     }
@@ -53,7 +42,7 @@ double vehicle_cost_on(const ProblemData& data, const Route& route, View<const S
     double cost = 0.0;
     for (const Stop& stop : stops.first(route.length)) cost += price[stop.node];
     for (const Sortie& sortie : sorties.first(route.sorties)) {
-        for (Int visit = 0; visit < sortie.count; ++visit) cost += price[sortie.nodes[visit]];
+        for (const Int node : sortie.customers()) cost += price[node];
     }
     return cost;
 }
@@ -122,9 +111,7 @@ bool load_trips(const ProblemData& data, Route& route, View<Stop, 1> stops, View
             ++trip.halts;
         }
         for (; s < route.sorties && sorties[s].launch == p; ++s) {
-            for (Int visit = 0; visit < sorties[s].count; ++visit) {
-                carry(data, trip, sorties[s].nodes[visit]);
-            }
+            for (const Int node : sorties[s].customers()) carry(data, trip, node);
         }
         if (stop.kind == end_stop) {
             trip.last = p;
@@ -257,8 +244,7 @@ double flight_cost(const ProblemData& data, Int k, View<const Stop, 1> stops, co
     const Int row = row_of_drone(data.type, k, sortie.drone);
     const TravelLegs flights = legs_of(data.leg, data.type[row].drone_travel);
     Int node = stops[sortie.launch].node, flown = 0;
-    for (Int visit = 0; visit < sortie.count; ++visit) {
-        const Int following = sortie.nodes[visit];
+    for (const Int following : sortie.customers()) {
         flown += leg(flights, node, following).distance;
         node = following;
     }

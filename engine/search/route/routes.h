@@ -1,14 +1,8 @@
 // All that follows from the sequence of a route: loads, times, where it bends, its cost.
 #pragma once
 
-#include <algorithm>
-
-#include "rules/load.h"
 #include "rules/segment.h"
-#include "rules/shift.h"
 #include "rules/start.h"
-#include "rules/window.h"
-#include "search/route/layout.h"
 #include "search/route/vehicles.h"
 
 namespace tandem {

@@ -1,21 +1,10 @@
 #include "search/route/settling.h"
 
-#include <algorithm>
-
-#include "rules/breaks.h"
-#include "rules/clock.h"
-#include "rules/driving.h"
 #include "rules/hours.h"
-#include "rules/shift.h"
-#include "rules/start.h"
-#include "rules/window.h"
 #include "search/route/breaks.h"
 #include "search/route/freshness.h"
-#include "search/route/lags.h"
-#include "search/route/rarer.h"
 #include "search/route/rest_placing.h"
 #include "search/route/resting.h"
-#include "search/route/routes.h"
 
 namespace tandem {
 namespace {

@@ -1,8 +1,5 @@
 #include "search/route/state.h"
 
-#include <algorithm>
-
-#include "rules/pair.h"
 #include "search/route/rarer.h"
 #include "search/route/refresh.h"
 
@@ -129,7 +126,7 @@ double unassigned_more(const ProblemData& data, View<const Int, 1> nodes, Int co
 }
 
 double left_out_cost(const ProblemData& data, View<const Int, 1> nodes, Int count) {
-    return static_cast<double>(count) * data.unassigned_cost + unassigned_more(data, nodes, count);
+    return double(count) * data.unassigned_cost + unassigned_more(data, nodes, count);
 }
 
 double missing_cost(const ProblemData& data, const Searcher& searcher) {

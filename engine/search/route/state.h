@@ -1,9 +1,6 @@
 // What one thread of the search holds.
 #pragma once
 
-#include <algorithm>
-
-#include "rules/pair.h"
 #include "search/route/layout.h"
 
 namespace tandem {
@@ -30,7 +27,7 @@ void for_each_served(const Fleet& fleet, Int slot, const Visit& visit) {
         if (stop.kind == customer_stop) visit(stop.node);
     }
     for (const Sortie& sortie : fleet.sortie[slot].first(route.sorties)) {
-        for (Int index = 0; index < sortie.count; ++index) visit(sortie.nodes[index]);
+        for (const Int node : sortie.customers()) visit(node);
     }
 }
 

@@ -1,9 +1,6 @@
 #include "search/route/stop_loads.h"
 
 #include "rules/breaks.h"
-#include "rules/drone_types.h"
-#include "rules/pair.h"
-#include "rules/rates.h"
 #include "search/route/vehicles.h"
 
 namespace tandem {
@@ -109,9 +106,7 @@ void note_heavy(const VehicleType& type, View<Stop, 1> stops, View<const StopLoa
 bool can_carry(const ProblemData& data, Int k, const Sortie& sortie, Int place, Int node) {
     if (tiers_of(data) == 0) {
         Amount load = place >= 0 ? demand_of(data.place[0][node]) : nothing;
-        for (Int visit = 0; visit < sortie.count; ++visit) {
-            load = plus(load, demand_of(data.place[0][sortie.nodes[visit]]));
-        }
+        for (const Int node : sortie.customers()) load = plus(load, demand_of(data.place[0][node]));
         return lifts(data.type[k], load, 0);
     }
     for (Int tier = 0; tier < tiers_of(data); ++tier) {
@@ -151,7 +146,7 @@ double load_cost(const ProblemData& data, const Fleet& fleet, Int slot) {
     double carried = 0.0;
     for (Int p = 0; p < fleet.route[slot].length; ++p) {
         const Int load = stop_loads[p].aboard[0] + data.type[k].carried;
-        carried += static_cast<double>(load) * static_cast<double>(fleet.stop(slot, p).leg);
+        carried += double(load) * double(fleet.stop(slot, p).leg);
     }
     return load_cost(data.rate[k], carried);
 }
@@ -162,9 +157,8 @@ double load_more(const ProblemData& data, const Fleet& fleet, Int slot, Int left
     const Trip& trip = fleet.trip(slot, fleet.stop(slot, left).trip);
     const Int parcel = delivered_of(data.amount, node, 0)[0];
     const Int taken = picked_of(data.amount, node, 0)[0];
-    const double carried =
-        static_cast<double>(parcel) * static_cast<double>(stop_loads[left].driven) +
-        static_cast<double>(taken) * static_cast<double>(trip.distance - stop_loads[came].driven);
+    const double carried = double(parcel) * double(stop_loads[left].driven) +
+                           double(taken) * double(trip.distance - stop_loads[came].driven);
     return load_cost(data.rate[fleet.route[slot].type], carried);
 }
 
@@ -174,9 +168,9 @@ double load_more_behind(const ProblemData& data, const Fleet& fleet, Int slot, I
     const Int parcel = delivered_of(data.amount, node, 0)[0];
     const Int taken = picked_of(data.amount, node, 0)[0];
     const Int load = fleet.stop_load(slot, 0, p).aboard[0] + data.type[k].carried;
-    const double legs = static_cast<double>(load) * static_cast<double>(detour.distance) +
-                        static_cast<double>(parcel) * static_cast<double>(detour.out.distance) +
-                        static_cast<double>(taken) * static_cast<double>(detour.on.distance);
+    const double legs = double(load) * double(detour.distance) +
+                        double(parcel) * double(detour.out.distance) +
+                        double(taken) * double(detour.on.distance);
     return load_more(data, fleet, slot, p, p + 1, node) + load_cost(data.rate[k], legs);
 }
 

@@ -1,9 +1,6 @@
 // What is aboard at the stops of a route, where that has to be looked at from stop to stop.
 #pragma once
 
-#include "rules/leg.h"
-#include "rules/load.h"
-#include "search/route/layout.h"
 #include "search/route/rarer.h"
 
 namespace tandem {

@@ -5,10 +5,7 @@
 
 #include "rules/drone_types.h"
 #include "rules/flight.h"
-#include "rules/load.h"
-#include "rules/pair.h"
 #include "rules/shift.h"
-#include "search/route/layout.h"
 #include "search/route/rarer.h"
 #include "search/route/state.h"
 

@@ -1,12 +1,9 @@
 // When those of a route were served before somewhere, on each of several ways to have come there.
 #pragma once
 
-#include <algorithm>
-#include <cstddef>
 #include <vector>
 
 #include "search/route/block.h"
-#include "search/route/lags.h"
 
 namespace tandem {
 
@@ -40,7 +37,7 @@ public:
     // Write when those were served who are before, on a way. In place.
     void recall(const Waited& waited) const {
         for (Int number = waited.noted; number != none;) {
-            const NotedStart& noted = noted_[static_cast<std::size_t>(number)];
+            const NotedStart& noted = noted_[std::size_t(number)];
             *noted.at = noted.time;
             number = noted.before;
         }
@@ -69,7 +66,7 @@ private:
 
     void note(Int& at, Waited& waited) {
         noted_.push_back({&at, at, waited.noted});
-        waited.noted = static_cast<Int>(noted_.size()) - 1;
+        waited.noted = Int(noted_.size()) - 1;
     }
 
     const Truck& truck_;

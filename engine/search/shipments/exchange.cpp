@@ -2,12 +2,8 @@
 //
 // References: Nagata and Kobayashi (2010), a memetic algorithm for the pickup and delivery problem
 // with time windows using selective route exchange crossover, PPSN XI.
-#include <algorithm>
-#include <vector>
 
-#include "guard.h"
 #include "randomness.h"
-#include "rules/pair.h"
 #include "search/route/fairness.h"
 #include "search/route/rarer.h"
 #include "search/search.h"

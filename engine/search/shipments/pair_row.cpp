@@ -1,8 +1,5 @@
 #include "search/shipments/pair_row.h"
 
-#include "rules/load.h"
-#include "rules/pair.h"
-
 namespace tandem {
 
 PairToInsert PairRows::pair_of(Int pickup) const {

@@ -3,12 +3,9 @@
 
 #include <vector>
 
-#include "rules/load.h"
-#include "rules/segment.h"
 #include "rules/shift.h"
 #include "rules/start.h"
 #include "search/insertion/newcomer.h"
-#include "search/route/layout.h"
 
 namespace tandem {
 

@@ -1,7 +1,5 @@
 #include "search/shipments/rows.h"
 
-#include <algorithm>
-
 #include "search/route/edit.h"
 #include "search/route/refresh.h"
 
