@@ -163,6 +163,7 @@ class Cost:
     balance: float = 0.0  # likewise
     too_few_vehicles: float = 0.0  # likewise
     unassigned: float = 0.0
+    changes: float = 0.0  # of a plan gone on from
 
     @property
     def total(self) -> float:

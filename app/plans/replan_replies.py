@@ -28,7 +28,7 @@ def replan_reply(problem: Problem, replanning: Replanning, solution: Solution,
 
     `doubtful` are customers of whom nobody told whether they were served.
     """
-    parcels = _parcels(problem, replanning, solution)
+    parcels, changes = _parcels(problem, replanning, solution), replanning.changes(solution)
     settled = {problem.customer_at(problem.first_place(node)).id
                for kept in replanning.kept for node in kept.served} if doubtful else set()
     held = [name for name in dict.fromkeys(doubtful) if name in settled]
@@ -40,6 +40,9 @@ def replan_reply(problem: Problem, replanning: Replanning, solution: Solution,
         "excused": [violation_reply(violation, "$", "$") for violation in replanning.excused],
         **({"parcels": parcels} if parcels else {}),
         **({"doubtful": held} if held else {}),
+        **({} if changes is None else {"changes": {
+            "vehicle": changes.vehicle, "position": changes.position,
+            "promise": changes.promised / 1000}}),
     }
 
 

@@ -32,7 +32,7 @@ from app.requests.conversion.places import PlacedRequest
 from app.requests.conversion.preparing import UNHURRIED, Preparing
 from app.requests.conversion.problem import problem_of
 from app.requests.conversion.travels import Travels
-from app.requests.conversion.units import optional_thousandths
+from app.requests.conversion.units import optional_thousandths, thousandths
 from app.requests.conversion.work import replanning_seconds
 from app.requests.plan_departed import with_what_is_there
 from app.requests.plan_reading import plan_to_solution, read_earlier_plan
@@ -40,6 +40,7 @@ from app.requests.warnings.addresses import address_warnings
 from app.requests.warnings.finding import warnings_of
 from app.requests.warnings.warning import RequestWarning
 from app.schemas.errors import InputError, InvalidRequestError
+from app.schemas.fairness import ChangeCostsInput
 from app.schemas.request import PlanRequest, ReplanInput
 from app.schemas.response import PlanReply
 from model.counsel.bench import Setting
@@ -47,6 +48,7 @@ from model.counsel.binding import Limit
 from model.counsel.explain import Reason, explain
 from model.counsel.more_trips import with_another_trip
 from model.counsel.remedy import Remedy
+from model.judge.changes import ChangePrices
 from model.judge.check import Evaluation, JudgedRoute, check
 from model.judge.past import Vehicle
 from model.judge.rules import Violation
@@ -274,7 +276,7 @@ def task_of(request: PlanRequest, preparing: Preparing = UNHURRIED,
         return Task(problem, None, *beside, far, places, permits, closures, storms, rules,
                     laws, risk=risk)
     replan, places_stated = with_what_is_there(replan, request.fleet)
-    terms = _terms(replan, problem)
+    terms = _terms(replan, request.options.change_costs, problem)
     going_on = replace(preparing, work="Legs and the plan to go on from",
                        advice="send fewer customers or vehicles at once")
     going_on.expect(replanning_seconds(problem, terms.plan))
@@ -325,7 +327,7 @@ def _stated(path: str, routes: Sequence[int]) -> str:
                               lambda match: f"routes[{routes[int(match[1])]}]", path))
 
 
-def _terms(replan: ReplanInput, problem: Problem) -> Terms:
+def _terms(replan: ReplanInput, prices: ChangeCostsInput | None, problem: Problem) -> Terms:
     plan = read_earlier_plan(replan.plan, problem, ("replan", "plan"))
     names = set(replan.pinned)
     pinned = frozenset(
@@ -345,7 +347,16 @@ def _terms(replan: ReplanInput, problem: Problem) -> Terms:
     return Terms(plan, optional_thousandths(replan.freeze_before), pinned, frozenset(unavailable),
                  optional_thousandths(replan.parcels_back),
                  {vehicle: frozenset(drones) for vehicle, drones in grounded.items()},
-                 replan.keep_order)
+                 replan.keep_order,
+                 None if prices is None else ChangePrices(**prices.model_dump()),
+                 _promised(replan, problem))
+
+
+def _promised(replan: ReplanInput, problem: Problem) -> dict[int, int]:
+    """Return when customers, by node, were told that they are reached, in ms."""
+    return {node: thousandths(replan.promised[customer.id])
+            for node, customer in enumerate(problem.customers, problem.num_depots)
+            if customer.id in replan.promised and problem.first_place(node) == node}
 
 
 def _no_plan(problem: Problem, options: PlanOptions) -> PlanResult:

@@ -1,4 +1,4 @@
-"""What a plan costs as a whole."""
+"""What a plan costs as a whole: fairness, and changes of the plan before."""
 
 from typing import Literal
 
@@ -17,6 +17,20 @@ class BalanceInput(Input):
         "too (`load`), or km driven (`distance`).")
     cost: Money = Field(
         description="Cost of the sum, over vehicles used, of (measure - mean)² / mean.")
+
+
+class ChangeCostsInput(Input):
+    """What changes of a plan gone on from cost."""
+
+    vehicle: Money = Field(
+        0.0, description="For each order that another vehicle serves than before, unless that "
+        "vehicle is unavailable.")
+    position: Money = Field(
+        0.0, description="For each order that changes places in its vehicle's route, the fewest "
+        "that tell the new order, or between the truck and its drones.")
+    promise_per_minute: Money = Field(
+        0.0, description="For each minute that an order is reached sooner or later than "
+        "`replan.promised` says, or the plan before.")
 
 
 class FairnessInput(Input):

@@ -40,6 +40,15 @@ class ParcelReply(_Reply):
     by: str | None = Field(description="The vehicle that loads it there. Null: nobody does.")
 
 
+class ChangesReply(_Reply):
+    """How much changed of the plan that was given."""
+
+    vehicle: int = Field(description="Orders that another vehicle serves.")
+    position: int = Field(description="Orders of the same vehicle that changed places.")
+    promise: float = Field(
+        description="By how many seconds orders are reached sooner or later than promised, in sum.")
+
+
 class ReplanReply(_Reply):
     """What became of the plan that was given."""
 
@@ -59,3 +68,5 @@ class ReplanReply(_Reply):
         None, description="Customers, of those stated as `doubtful`, whom the plan has as served "
         "by now though nobody told. Left out if there are none."
     )
+    changes: ChangesReply | None = Field(
+        None, description="What changed. Left out unless `options.change_costs` asks for it.")

@@ -12,7 +12,7 @@ from app.schemas.airspace import AirspaceInput
 from app.schemas.customer import CustomerInput
 from app.schemas.day import Day, Times
 from app.schemas.errors import IN_PLACE, IN_WORDS
-from app.schemas.fairness import FairnessInput
+from app.schemas.fairness import ChangeCostsInput, FairnessInput
 from app.schemas.fields import (
     LAUNCH_TEXT, LOCATION_INDEX_TEXT, LOCATION_TEXT, MAX_DEPOTS, MAX_LAUNCH_SITES, Approach, Count,
     Input, Instant, LocationIndex, Money, Name, PlaceLocation, Rounding, Table,
@@ -177,6 +177,10 @@ class OptionsInput(Input):
     lateness_risk: LatenessRiskInput | None = Field(
         None, description="How times spread around the planned ones: stops then tell their chance "
         "of being late. Null: everything lasts as long as planned.")
+    change_costs: ChangeCostsInput | None = Field(
+        None,
+        description="What changes of the plan in `replan` cost. Null: nothing.",
+    )
 
 
 class LoadDimensionInput(Input):
@@ -231,6 +235,12 @@ class ReplanInput(Input):
         description="Customers of whom nobody told whether they were served, as "
         "`GET /dispatches/{id}/replan` has them. Planning doesn't look at it; the reply repeats "
         "those who are held to be served.",
+    )
+    promised: Annotated[dict[Name, Instant], Field(max_length=MAX_CUSTOMERS)] = Field(
+        {},
+        description="When customers were told that they are reached, for "
+        "`options.change_costs.promise_per_minute`. Of others the plan tells it, and of those who "
+        "are no more it means nothing.",
     )
 
 

@@ -51,6 +51,7 @@ class CostReply(_Reply):
     too_few_vehicles: float = Field(
         description="Vehicles that lack, at a price that means nothing by itself.")
     unassigned: float = Field(description="Customers left out.")
+    changes: float = Field(description="What changed of the plan gone on from, where that costs.")
 
 
 class StopReply(_Reply):

@@ -82,6 +82,9 @@ class Days(Study):
             if terms["pin_all"]:
                 terms["keep_order"] = rng.random() < 0.5
             later = with_a_thing_gone(rng, request) | {"replan": terms}
+            later["options"] = later.get("options", {}) | {"change_costs": {
+                name: rng.choice((0.0, 0.1, 10.0))
+                for name in ("vehicle", "position", "promise_per_minute")}}
             replanned = self.planned(later)
             self.replanned += replanned is not None
 

@@ -10,6 +10,7 @@ from itertools import chain, pairwise
 from operator import attrgetter
 from types import MappingProxyType
 
+from model.judge.changes import count_changes
 from model.judge.company import plan_company, plan_orders, route_company
 from model.judge.fairness import fairness_cost
 from model.judge.hours import hours_violations
@@ -67,6 +68,9 @@ def check(problem: Problem, solution: Solution, past: Past = EVERYTHING_OPEN,
     costs.append(fairness_cost(problem, [
         (route, judged.metrics) for route, judged in zip(solution.routes, routes, strict=True)
         if judged.metrics.trips], makespan))
+    if past.earlier is not None:
+        changes = count_changes(problem, solution, past.earlier)
+        costs.append(Cost(changes=changes.cost(past.earlier.prices)))
     return Evaluation(tuple(violations), _total(costs), tuple([each.metrics for each in routes]),
                       makespan)
 

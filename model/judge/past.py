@@ -10,6 +10,7 @@ from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from typing import Literal, NamedTuple
 
+from model.judge.changes import EarlierPlan
 from model.judge.clock import service_start
 from model.judge.launches import launch_begins
 from model.problem import UNREACHABLE, Problem, VehicleType
@@ -78,6 +79,13 @@ class Past:
     returned: Mapping[int, int] = field(default_factory=dict)  # customer -> parcel is back then
     orders: Mapping[Vehicle, tuple[int, ...]] = field(default_factory=dict)
     """Whom trucks served before, in their order, where pinned customers keep their places."""
+    earlier: EarlierPlan | None = None  # what changes are counted from; None: they cost nothing
+
+    def keepers(self) -> list[Vehicle]:
+        """Return the vehicles whose customers cost something if others serve them."""
+        if self.earlier is None or not self.earlier.prices.vehicle:
+            return []
+        return [Vehicle(*place.vehicle) for place in self.earlier.places.values()]
 
     def under_way(self, vehicle: Vehicle) -> KnownTrip | None:
         """Return the trip that a vehicle is on and may add to."""

@@ -17,8 +17,9 @@ from model.judge.timing import (
 from model.problem import Problem, VehicleType
 from model.replanning.amend import Broken, broken_by, customers_of, repaired, without
 from model.replanning.handover import complete
-from model.replanning.kept import Kept, by_launch, resumed
+from model.replanning.kept import Kept, by_launch, kept_routes, resumed
 from model.replanning.spans import awaiting, out_of_turn
+from model.replanning.workers import VehicleWorker
 from model.solution import Route, Solution, Trip
 
 
@@ -32,6 +33,38 @@ def carried_through(problem: Problem, planned: Route, own: Kept, past: Past) -> 
     if set(customers_of(problem, decision.trips[-1])) <= own.served:
         return own
     return Kept(own.vehicle, decision, route)
+
+
+def kept_by(problem: Problem, plan: Solution,
+             past: Past) -> tuple[dict[Vehicle, Kept], dict[Vehicle, Kept]]:
+    """Return what vehicles do in any case; and of these who drive their trips as planned.
+
+    They do so where no way leads home from their next stop.
+    """
+    kept = kept_routes(problem, plan, past)
+    through = {vehicle: carried_through(problem, route, kept[vehicle], past)
+               for route in plan.routes
+               if (vehicle := Vehicle(route.vehicle_type, route.vehicle)) in kept
+               and past.under_way(vehicle) is not None
+               and any(violation.code == "UNREACHABLE" for violation
+                       in judge_route(problem, kept[vehicle].route, "", past).violations)}
+    return kept | through, through
+
+
+def going_through(problem: Problem, plan: Solution, past: Past, kept: Mapping[Vehicle, Kept],
+             workers: Collection[VehicleWorker]) -> dict[Vehicle, Kept]:
+    """Return vehicles that drive their trips as planned, as no worker can go on with them."""
+    going_on = {worker.vehicle for worker in workers if worker.is_under_way}
+    found = {}
+    for route in plan.routes:
+        vehicle = Vehicle(route.vehicle_type, route.vehicle)
+        trip, own = past.under_way(vehicle), kept.get(vehicle)
+        if trip is None or own is None or vehicle in going_on or not trip.aboard - own.served:
+            continue
+        through = carried_through(problem, route, own, past)
+        if through.served > own.served:
+            found[vehicle] = through
+    return found
 
 
 def as_it_stands(problem: Problem, plan: Solution, kept: Mapping[Vehicle, Kept]) -> Solution:

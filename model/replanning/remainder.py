@@ -12,7 +12,7 @@ import numpy as np
 from model.judge.freshness import first_departure
 from model.judge.hubs import batteries_taken
 from model.judge.past import Past, Vehicle
-from model.problem import BoolArray, Customer, Depot, Problem, VehicleType
+from model.problem import BoolArray, Customer, Depot, FloatArray, Problem, VehicleType
 from model.replanning.amend import customers_of
 from model.replanning.company import company_table, relations_left
 from model.replanning.kept import Kept
@@ -117,7 +117,7 @@ def what_is_left(problem: Problem, past: Past, kept: Mapping[Vehicle, Kept],
         may_serve=_table(problem, past, kinds, owners, nodes)
         & _goods_table(problem, kept, kinds, owners, nodes)
         & company_table(problem, kept, kinds, owners, nodes) & ~flown_alone(free, customers),
-        vehicle_costs=problem.vehicle_costs_of(kinds, nodes),
+        vehicle_costs=_vehicle_costs(problem, past, kinds, owners, nodes),
         fairness=fairness_left(problem, past, kept, owners))
     return Remainder(left, tuple(source), kinds, owners)
 
@@ -155,6 +155,21 @@ def _table(problem: Problem, past: Past, kinds: Sequence[int], owners: Mapping[i
     if problem.may_serve is not None:
         table &= problem.may_serve[np.array(kinds)[:, None], np.array(nodes) - problem.num_depots]
     return table
+
+
+def _vehicle_costs(problem: Problem, past: Past, kinds: Sequence[int],
+                   owners: Mapping[int, VehicleWorker], nodes: Sequence[int]) -> FloatArray | None:
+    """Return (type, customer) what serving costs, and changing who does."""
+    costs, earlier = problem.vehicle_costs_of(kinds, nodes), past.earlier
+    if earlier is None or not earlier.prices.vehicle:
+        return costs
+    vehicles = [tuple(owners[kind].vehicle) if kind in owners else None
+                for kind in range(len(kinds))]
+    places = [earlier.places.get(problem.first_place(node)) for node in nodes]
+    moved = earlier.prices.vehicle * np.array(
+        [[place is not None and place.vehicle != vehicle for place in places]
+         for vehicle in vehicles], np.float64)
+    return moved if costs is None else costs + moved
 
 
 def _sites(problem: Problem, kept: Mapping[Vehicle, Kept], kinds: Sequence[int],

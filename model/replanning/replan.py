@@ -2,30 +2,31 @@
 
 import math
 import time
-from collections.abc import Callable, Collection, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 
 from model.counsel.explain import Reason, explain_type, unexplained
+from model.judge.changes import ChangePrices, EarlierPlan, PlanChanges, count_changes, earlier_plan
 from model.judge.chargers import with_charging
-from model.judge.check import Evaluation, check, judge_route
+from model.judge.check import Evaluation, check
 from model.judge.memory import Memory
 from model.judge.past import Past, Vehicle, known_trips, parcels_aboard
 from model.judge.past_rules import PAST_RULES
 from model.planner import (
-    ALONE, Completed, Elapsed, Listener, PlanCheckError, Planner, PlanOptions, PlanResult,
-    Progress, complete_plan,
+    ALONE, Elapsed, Listener, PlanCheckError, Planner, PlanOptions, PlanResult,
 )
 from model.problem import Problem
-from model.replanning.driven_on import as_it_stands, carried_through, driven_on
-from model.replanning.handover import hand_over, served_by, settled, take_back
+from model.replanning.driven_on import as_it_stands, driven_on, going_through, kept_by
+from model.replanning.handover import hand_over, served_by, settled
 from model.replanning.kept import Kept, kept_routes
 from model.replanning.late import as_late
-from model.replanning.order import by_order, in_order, orders_of
+from model.replanning.order import by_order, orders_of
 from model.replanning.parted import parted_shipments, with_parted
 from model.replanning.reasons import barred_reason, bound_reasons
 from model.replanning.refusing import as_given, gone_from, refuse
-from model.replanning.remainder import Remainder, what_is_left
-from model.replanning.workers import VehicleWorker, find_workers
+from model.replanning.remainder import what_is_left
+from model.replanning.searching import Bridge, begin, joined, relayed, searches
+from model.replanning.workers import find_workers
 from model.solution import Route, Solution, renumbered
 
 UNREADABLE = frozenset({"UNKNOWN_TYPE", "UNKNOWN_NODE", "DEPOT", "COUNT",
@@ -45,21 +46,9 @@ class Terms:
     grounded: Mapping[Vehicle, frozenset[int]] = field(default_factory=dict)
     """Drones, by number on their truck, that are launched no more."""
     keeps_order: bool = False  # whether pinned customers keep their places in the order, too
-
-
-@dataclass(frozen=True)
-class _Bridge:
-    """From plans of what is left to plans of the whole."""
-
-    problem: Problem
-    past: Past
-    plan: Solution  # given
-    kept: Mapping[Vehicle, Kept]
-    left: Remainder
-
-    def whole(self, found: Solution) -> Solution:
-        """Return the plan of the whole."""
-        return take_back(self.problem, self.past, self.plan, self.kept, self.left, found)
+    prices: ChangePrices | None = None  # of changes; None: they cost nothing
+    promised: Mapping[int, int] = field(default_factory=dict)
+    """When customers were told that they are reached, in ms; others by the plan given."""
 
 
 class Replanning:
@@ -78,15 +67,16 @@ class Replanning:
         parted = [] if terms.now is None else parted_shipments(
             problem, terms.plan, terms.now, terms.unavailable)
         problem = with_parted(problem, parted)
+        earlier = _earlier(problem, terms)
         plan = with_charging(problem, terms.plan)
         if terms.now is not None:
             plan = as_late(problem, plan, terms.now, terms.unavailable)
         terms = replace(terms, plan=plan)
         self._plan = plan
-        past = _past(problem, terms)
+        past = replace(_past(problem, terms), earlier=earlier)
         refuse(gone_from(terms.plan, past))
         self.problem = problem = _released(problem, past)
-        self._kept, self._through = _kept_by(problem, terms.plan, past)
+        self._kept, self._through = kept_by(problem, terms.plan, past)
         self._settled = settled(problem, self._kept)
         broken = check(problem, self._settled, past).violations
         refuse(as_given(terms.plan, self._settled, broken, UNREADABLE))
@@ -102,7 +92,7 @@ class Replanning:
         self.past = replace(past, returned=dict.fromkeys(
             problem.all_places({*self.stranded, *waiting}), back))
         workers = find_workers(problem, self.past, self._kept)
-        through = _through(problem, terms.plan, self.past, self._kept, workers)
+        through = going_through(problem, terms.plan, self.past, self._kept, workers)
         if through:
             self._through |= through
             self._kept |= through
@@ -119,6 +109,11 @@ class Replanning:
     def kept(self) -> tuple[Kept, ...]:
         """What vehicles do in any case that have departed, in the order of a plan's routes."""
         return tuple(self._kept.values())
+
+    def changes(self, solution: Solution) -> PlanChanges | None:
+        """Return how much a plan changes of the one given; None if that costs nothing."""
+        earlier = self.past.earlier
+        return None if earlier is None else count_changes(self.problem, solution, earlier)
 
     def check(self, solution: Solution) -> Evaluation:
         """Judge a plan; what is excused is no violation."""
@@ -139,9 +134,9 @@ class Replanning:
         kept = self._kept if start is None else self._kept_of(start)
         if self._left is None:
             return self._nothing_left(plan, kept, options)
-        bridge = _Bridge(self.problem, self.past, plan, kept, self._left)
+        bridge = Bridge(self.problem, self.past, plan, kept, self._left)
         handed = hand_over(self.problem, plan, kept, self._left)
-        filled = _begin(self._left, handed, options, listener.should_stop, bool(self.past.orders))
+        filled = begin(self._left, handed, options, listener.should_stop, bool(self.past.orders))
         first, begun, evaluation = self._beginning(bridge, handed, filled.solution)
         solution, before = self._cheapest((begun, evaluation),
                                           as_it_stands(self.problem, plan, kept))
@@ -151,16 +146,23 @@ class Replanning:
                 begun.unassigned):
             solution, before = self._cheapest(
                 (solution, before), driven_on(self.problem, plan, kept, self.past))
-        result = planner.plan(self._in_order(self._left, first), options, received_at,
-                              _relayed(listener, evaluation.cost.total, bridge), first)
-        found = begun if result.solution is first else by_order(
-            bridge.whole(result.solution), self.past.orders)
-        solution, evaluation = self._cheapest((solution, before), found)
-        elapsed = replace(result.elapsed, decode=time.perf_counter() - began
-                          - result.elapsed.search - result.elapsed.check)
-        return replace(result, solution=solution, evaluation=evaluation, start="given",
-                       decoded_cost=before.cost.total, final_cost=evaluation.cost.total,
-                       deterministic=result.deterministic and filled.whole, elapsed=elapsed)
+        known = solution, before
+
+        def cost(plan: Solution) -> float:
+            nonlocal known
+            other = begun if plan is first else by_order(bridge.whole(plan), self.past.orders)
+            evaluation = self.check(other)
+            if evaluation.violations:
+                return math.inf
+            if evaluation.cost.total <= known[1].cost.total:
+                known = other, evaluation
+            return evaluation.cost.total
+
+        relaying = relayed(listener, evaluation.cost.total, bridge)
+        since = began if received_at is None else received_at
+        results = [each.find(planner, since, relaying, handed, first, cost)
+                   for each in searches(self._left, self.past, first, options)]
+        return joined(results, known, before.cost.total, filled.whole, began)
 
     def reasons(self, solution: Solution, node: int,
                 until: float = math.inf) -> tuple[Reason, ...]:
@@ -178,7 +180,7 @@ class Replanning:
         return tuple(self._reason(solution, plan, kind, node, until)
                      for kind in range(len(self.problem.vehicle_types)))
 
-    def _beginning(self, bridge: _Bridge, handed: Solution,
+    def _beginning(self, bridge: Bridge, handed: Solution,
                    first: Solution) -> tuple[Solution, Solution, Evaluation]:
         """Return where the search begins, of what is left and as a whole, and its judgement."""
         solution = bridge.whole(first)
@@ -190,16 +192,6 @@ class Replanning:
             # waits where a trip goes on serves others later than it will.
             solution = self._settled
         return first, solution, self._legal(solution)
-
-    def _in_order(self, left: Remainder, first: Solution) -> Problem:
-        """Return what is left, those at their places in `first` who keep them."""
-        if not self.past.orders:
-            return left.problem
-        here = left.numbers
-        pinned = {here[node] for node in self.past.pinned if node in here}
-        orders = [[here[node] for node in order if node in here]
-                  for order in self.past.orders.values()]
-        return in_order(left.problem, first, pinned, orders)
 
     def _legal(self, solution: Solution) -> Evaluation:
         evaluation = self.check(solution)
@@ -267,6 +259,13 @@ class Replanning:
         return replace(reason, vehicle_type=kind)
 
 
+def _earlier(problem: Problem, terms: Terms) -> EarlierPlan | None:
+    """Return what changes are counted from, as the plan was given."""
+    if terms.prices is None:
+        return None
+    return earlier_plan(problem, terms.plan, terms.prices, terms.promised, terms.unavailable)
+
+
 def _past(problem: Problem, terms: Terms) -> Past:
     """Return what has happened, but for parcels that come back."""
     known = {}
@@ -312,63 +311,3 @@ def _stranded(problem: Problem, kept: Mapping[Vehicle, Kept],
             for node in sorted(nodes - served.get(vehicle, set()))}
 
 
-def _kept_by(problem: Problem, plan: Solution,
-             past: Past) -> tuple[dict[Vehicle, Kept], dict[Vehicle, Kept]]:
-    """Return what vehicles do in any case; and of these who drive their trips as planned.
-
-    They do so where no way leads home from their next stop.
-    """
-    kept = kept_routes(problem, plan, past)
-    through = {vehicle: carried_through(problem, route, kept[vehicle], past)
-               for route in plan.routes
-               if (vehicle := Vehicle(route.vehicle_type, route.vehicle)) in kept
-               and past.under_way(vehicle) is not None
-               and any(violation.code == "UNREACHABLE" for violation
-                       in judge_route(problem, kept[vehicle].route, "", past).violations)}
-    return kept | through, through
-
-
-def _through(problem: Problem, plan: Solution, past: Past, kept: Mapping[Vehicle, Kept],
-             workers: Collection[VehicleWorker]) -> dict[Vehicle, Kept]:
-    """Return vehicles that drive their trips as planned, as no worker can go on with them."""
-    going_on = {worker.vehicle for worker in workers if worker.is_under_way}
-    found = {}
-    for route in plan.routes:
-        vehicle = Vehicle(route.vehicle_type, route.vehicle)
-        trip, own = past.under_way(vehicle), kept.get(vehicle)
-        if trip is None or own is None or vehicle in going_on or not trip.aboard - own.served:
-            continue
-        through = carried_through(problem, route, own, past)
-        if through.served > own.served:
-            found[vehicle] = through
-    return found
-
-
-def _begin(left: Remainder, begun: Solution, options: PlanOptions,
-           should_stop: Callable[[], bool], has_orders: bool) -> Completed:
-    """Return what is left of the plan given; if no search follows, with those whom it lacks.
-
-    They are inserted where that costs least, as a search does at its beginning. Where some keep
-    their places in the order, windows leave it little room to do so later.
-    """
-    searches = options.time_limit > 0 and options.search_iterations != 0 and not has_orders
-    if searches or not begun.unassigned:
-        return Completed(begun, True)
-    filled = complete_plan(left.problem, begun, options.seed, should_stop)
-    before, after = check(left.problem, begun), check(left.problem, filled.solution)
-    if after.is_feasible and after.cost.total <= before.cost.total:
-        return filled
-    return filled._replace(solution=begun)
-
-
-def _relayed(listener: Listener, first_cost: float, bridge: _Bridge) -> Listener:
-    """Return a listener to the plan of what is left, whose first plan costs so much as a whole."""
-    apart: list[float] = []
-
-    def relay(progress: Progress) -> None:
-        if not apart:
-            apart.append(first_cost - progress.cost)
-        listener.on_progress(replace(progress, cost=progress.cost + apart[0],
-                                     plan=lambda: bridge.whole(progress.plan())))
-
-    return Listener(listener.should_stop, relay)

@@ -82,15 +82,16 @@ def find_workers(problem: Problem, past: Past, kept: Mapping[Vehicle, Kept]) -> 
             workers.append(later)
     workers += _others(problem, past, kept)
     if len(workers) > MAX_OWN_TYPES:
-        raise TooManyTypesError(f"{len(workers)} routes are under way, have customers pinned to "
-                                f"them or grounded drones, and at most {MAX_OWN_TYPES} are allowed")
+        raise TooManyTypesError(f"{len(workers)} routes are under way, have customers of "
+                                "their own or grounded drones, and at most "
+                                f"{MAX_OWN_TYPES} are allowed")
     return [_with_drones_left(worker, past) for worker in workers]
 
 
 def _others(problem: Problem, past: Past, kept: Mapping[Vehicle, Kept]) -> list[VehicleWorker]:
-    """Return who has done nothing yet, and has customers pinned to it or drones grounded."""
+    """Return who has done nothing yet, and has customers of its own or drones grounded."""
     workers = []
-    for vehicle in dict.fromkeys((*past.pinned.values(), *past.grounded)):
+    for vehicle in dict.fromkeys((*past.pinned.values(), *past.grounded, *past.keepers())):
         kind = from_now_on(problem.vehicle_types[vehicle.type], past.now)
         if vehicle not in kept and vehicle not in past.unavailable and kind is not None:
             workers.append(VehicleWorker(vehicle, replace(kind, id=vehicle_name(problem, vehicle),

@@ -49,5 +49,5 @@ def empty_outlooks(*shape: int) -> Records:
 
 
 def by_term(cost: Records) -> FloatArray:
-    """Return costs as a table of numbers, (row, term), in the order of `COST_TERMS`."""
+    """Return costs as a table of numbers, (row, term), of all `COST_TERMS` but `changes`."""
     return cost.view(np.float64).reshape(len(cost), -1)

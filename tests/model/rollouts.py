@@ -35,7 +35,7 @@ class Rollout:
     """One rollout, from the first step on."""
 
     steps: list[Step] = field(default_factory=list)
-    cost: FloatArray = field(default_factory=lambda: np.zeros(len(COST_TERMS)))
+    cost: FloatArray = field(default_factory=lambda: np.zeros(len(COST_TERMS) - 1))
 
     @property
     def actions(self) -> list[int]:

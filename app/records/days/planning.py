@@ -62,6 +62,8 @@ def asked(begun: Begun, told: ToldDay, plan: PlanInput | None,
         going = going_on(late, vehicles, now)
         replan = dict(going.replan)
         failed = {each.customer: each.parcel_back for each in going.failed if each.is_open}
+    if options.get("change_costs"):
+        replan["promised"] = told.etas
     replan["unavailable"] = [*dict.fromkeys([*replan.get("unavailable", ()), *told.out])]
     request["replan"] = replan
     for name, orders in (("customers", told.customers), ("shipments", told.shipments)):

@@ -340,3 +340,30 @@ def test_a_late_van_still_waits_where_it_has_time(searching: httpx.Client,
     plan = replanned(searching, street, late(tour, 100), 50)
     assert times(plan, "van-1")[2:] == [("b", 280, 460), ("tea", 460, 520), ("c", 580, 640),
                                         ("hub", 820, 820)]
+
+
+def test_what_changes_of_the_plan_costs_what_the_request_says(searching: httpx.Client,
+                                                             street: Request) -> None:
+    # One van alone would drive less.
+    plan = plan_of(("depot", "hub", 0, 0), ("customer", "b", 120, 180), ("depot", "hub", 300, 300))
+    second = plan_of(("depot", "hub", 0, 0), ("customer", "c", 180, 240),
+                     ("customer", "a", 360, 420), ("depot", "hub", 480, 480))["routes"][0]
+    plan["routes"].append(second | {"vehicle": "van-2"})
+    body = {**street, "replan": {"plan": plan, "promised": {"b": 120}}}
+    prices = {"vehicle": 100.0, "position": 30.0, "promise_per_minute": 0.0}
+    held = searching.post("/plan", json=body | {
+        "options": {**street["options"], "change_costs": prices}}).json()
+    assert held["replan"]["changes"] == {"vehicle": 0, "position": 0, "promise": 0}
+    assert held["cost"]["changes"] == 0
+    prices = {"vehicle": 0.25, "position": 0.5, "promise_per_minute": 0.01}
+    body["options"] = {**street["options"], "change_costs": prices}
+    moved = searching.post("/plan", json=body).json()
+    changes = moved["replan"]["changes"]
+    assert changes["vehicle"] > 0
+    assert moved["cost"]["changes"] == pytest.approx(
+        0.25 * changes["vehicle"] + 0.5 * changes["position"] + 0.01 * changes["promise"] / 60)
+    assert moved["cost"]["total"] < held["cost"]["total"]
+    verdict = judged(searching, body, moved)
+    assert (verdict["violations"], verdict["cost"]) == ([], pytest.approx(moved["cost"]))
+    assert "changes" not in searching.post("/plan", json={
+        **street, "replan": {"plan": plan}}).json()["replan"]

@@ -372,6 +372,7 @@ export default {
     balance: 'Ungleiche Arbeit',
     too_few_vehicles: 'Zu wenige Fahrzeuge',
     unassigned: 'Nicht eingeplant',
+    changes: 'Änderungen',
   },
   servedBy: {
     truck: 'nur Fahrzeug',

@@ -359,6 +359,7 @@ export default {
     balance: 'Unequal work',
     too_few_vehicles: 'Vehicles that lack',
     unassigned: 'Left out',
+    changes: 'Changes',
   },
   servedBy: {
     truck: 'truck only',

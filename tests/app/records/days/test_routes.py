@@ -46,6 +46,26 @@ def test_orders_come_in_and_are_cancelled(service: httpx.Client) -> None:
     assert checked["feasible"], checked
 
 
+def test_nobody_moves_where_that_is_dear_and_what_was_told_is_the_promise(
+        service: httpx.Client) -> None:
+    prices = {"vehicle": 1000.0, "position": 1000.0, "promise_per_minute": 1.0}
+    day = begun(service, PROBLEM | {"options": {"change_costs": prices}, "fleet": [
+        {**PROBLEM["fleet"][0], "capacity": [3]}]})
+    before = plan_of(service, day)
+    arrivals = {stop["id"]: stop["arrival"] for route in before["routes"]
+                for trip in route["trips"] for stop in trip["stops"]}
+    told(service, day, clock(), order("G", 1, 1), at=10)
+    plan = plan_of(service, day)
+    by = served_by(plan)
+    assert {name: by[name] for name in "ABCDEF"} == served_by(before)
+    assert "G" in by
+    late = sum(abs(stop["arrival"] - arrivals[stop["id"]]) for route in plan["routes"]
+               for trip in route["trips"] for stop in trip["stops"][1:-1] if stop["id"] != "G")
+    assert plan["replan"]["changes"] == {
+        "vehicle": 0, "position": 0, "promise": pytest.approx(late)}
+    assert plan["cost"]["changes"] == pytest.approx(late / 60)
+
+
 def test_what_has_happened_stays_and_is_planned_on_from(service: httpx.Client) -> None:
     day = begun(service)
     before = plan_of(service, day)
