@@ -35,6 +35,7 @@ from app.plans.workplace import opened, opened_with
 from app.records.days.routes import router as days_router
 from app.records.days.runner import AT_ONCE
 from app.records.days.running import running_days
+from app.records.days.webhooks import message_of
 from app.records.dispatches.pages import mount_drivers_page
 from app.records.dispatches.routes import router as dispatches_router
 from app.records.dispatches.store import delete_expired
@@ -149,7 +150,7 @@ def _running(app: FastAPI, settings: Settings, planner: Planner | None,
         app.state.addresses = roads.addresses
         with _planning(settings, planner, roads, observer) as app.state.plans:
             jobs = running_jobs(settings, app.state.plans, observer.metrics, observer.record_plan,
-                                [delete_expired])
+                                [delete_expired], message_of)
             app.state.gallery.start()
             with (keeping_plans(settings) as app.state.kept, jobs as app.state.jobs,
                   running_days(settings, app.state.plans, app.state.jobs) as app.state.days,

@@ -1,6 +1,6 @@
 """What follows from a day's new plan: what clients and customers are told of it."""
 
-from collections.abc import Collection, Iterator, Mapping
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from typing import Any
 
 from pydantic_core import to_json
@@ -11,6 +11,7 @@ from app.records.days.spreads import chance_of
 from app.records.dispatches.rows import ToldRow
 from app.records.dispatches.standing import of_steps
 from app.records.dispatches.steps import flight_id, stop_ids
+from app.records.jobs.webhook import ELSEWHERE
 from app.schemas.plan import PlanInput, TripInput
 from app.schemas.request import PlanRequest
 
@@ -45,6 +46,12 @@ def news_of(number: int, planned: int, at: int, told: ToldDay, before: PlanInput
     rows += [_row(number, at, "order.at_risk", order, {"order": order, "at_risk": False})
              for order in sorted(told.at_risk - risks.keys())]
     return rows
+
+
+def names_of(day: str, number: int, news: Sequence[ToldRow]) -> list[str]:
+    """Return the names of the messages that tell the news of a day's plan."""
+    return [f"{ELSEWHERE}{day}:{number}:{kind}"
+            for kind in dict.fromkeys(event.kind for event in news)]
 
 
 def _row(number: int, at: int, kind: str, order: str, about: Data,

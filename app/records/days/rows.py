@@ -39,6 +39,7 @@ class DayTerms:
     eta_threshold: float  # seconds
     clock: float | None  # when it begins, if it goes by what it is told: seconds since plan start
     secret: str  # signs its quotes, and its customers' links
+    webhook: str | None = None  # is told what follows from plans
     risk_threshold: float = 0.3  # the chance of being late from which on an order is at risk
 
 

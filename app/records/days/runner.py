@@ -5,26 +5,28 @@ import threading
 import time
 import uuid
 from collections import Counter
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
 from datetime import UTC, datetime
+from functools import partial
 from http import HTTPStatus
 
 from pydantic_core import from_json, to_json
-from sqlalchemy import Engine
+from sqlalchemy import Connection, Engine
 from sqlalchemy.exc import SQLAlchemyError
 
 from app.maps.roads.roads import Roads
 from app.plans.flights.answering import flights_by_vehicle
 from app.records.clock import now_ms
 from app.records.days.fold import ToldDay, fold
-from app.records.days.news import news_of
+from app.records.days.news import names_of, news_of
 from app.records.days.planning import asked, too_late
 from app.records.days.rows import Begun, DayRow
 from app.records.days.spreads import observed
 from app.records.days.store import DayStore
 from app.records.dispatches.instants import PlanStart, instant, milliseconds
+from app.records.dispatches.rows import ToldRow
 from app.records.dispatches.service import HOUR_MS, work_by
 from app.records.dispatches.store import DispatchStore
 from app.records.dispatches.validation import require_drivable
@@ -74,16 +76,20 @@ class DayRunner:
         Those that the service has.
     is_prepared
         Tells whether the database has its tables.
+    announce
+        Has a webhook told a message by its name, once the transaction of a connection commits.
     """
 
     def __init__(self, engine: Engine, plan: Plan, settings: Settings, roads: Roads,
-                 is_prepared: Callable[[], bool]) -> None:
+                 is_prepared: Callable[[], bool],
+                 announce: Callable[[Connection, str, str], None]) -> None:
         self._store = DayStore(engine)
         self._dispatches = DispatchStore(engine)
         self._plan = plan
         self._settings = settings
         self._roads = roads
         self._is_prepared = is_prepared
+        self._announce = announce
         self._stopping = threading.Event()
         self._told = threading.Event()
         self._by = str(uuid.uuid4())
@@ -172,7 +178,15 @@ class DayRunner:
         rows = news_of(day.plan_number + 1, day.asked, round(day.plan_start + 1000 * now), told,
                        before, plan, from_json(reply), problem, begun.terms,
                        observed(before, told, log, day.planned))
-        self._store.publish(self._with_end(day, plan), self._by, reply, work, rows)
+        self._store.publish(self._with_end(day, plan), self._by, reply, work, rows,
+                            partial(self._announced, day, begun.terms.webhook, rows))
+
+    def _announced(self, day: DayRow, webhook: str | None, news: Sequence[ToldRow],
+                   connection: Connection) -> None:
+        """Have a day's webhook told of a plan, if it has one. In place."""
+        if webhook is not None:
+            for name in names_of(day.id, day.plan_number + 1, news):
+                self._announce(connection, name, webhook)
 
     def _replied(self, day: DayRow, begun: Begun, told: ToldDay, before: PlanInput | None,
                  now: float) -> tuple[bytes, bytes]:

@@ -27,7 +27,8 @@ def running_days(settings: Settings, planning: PlanDesk,
         return bytes(planning.do(answers.plan, received, should_stop=should_stop))
 
     engine = connect(settings.database)
-    runner = DayRunner(engine, plan, settings, planning.roads, lambda: jobs.database.is_prepared)
+    runner = DayRunner(engine, plan, settings, planning.roads, lambda: jobs.database.is_prepared,
+                       jobs.queues.add_webhook)
     runner.start()
     try:
         yield runner

@@ -35,6 +35,9 @@ class DayRequest(Input):
     eta_threshold: Duration = Field(
         ETA_THRESHOLD, description="By how many seconds an arrival has to move before "
         "`eta.changed` tells it again.")
+    webhook: Annotated[str, Field(min_length=1)] | None = Field(
+        None, description="URL that is told `plan.changed`, `eta.changed` and `order.at_risk` as "
+        "they happen, signed and repeated as webhooks of jobs are.")
     risk_threshold: Annotated[float, Field(gt=0, le=1)] = Field(
         RISK_THRESHOLD, description="The chance of being late from which on `order.at_risk` tells "
         "an order. It is over below two thirds of that.")

@@ -33,6 +33,7 @@ from app.records.dispatches.errors import TooManyDispatchesError
 from app.records.dispatches.instants import PlanStart, instant, milliseconds
 from app.records.dispatches.service import HOUR_MS
 from app.records.dispatches.store import DispatchStore
+from app.records.jobs.webhook import check_url
 from app.requests.bounds import Bounds
 from app.requests.plan_reading import parse_plan
 from app.requests.reading import read_json, read_model, request_errors
@@ -88,9 +89,11 @@ class DayService:
         if errors:
             raise InvalidRequestError([error.model_copy(update={
                 "path": f"$.problem{error.path[1:]}"}) for error in errors])
+        if request.webhook is not None:
+            check_url(request.webhook, self._settings, "$.webhook")
         row = self._row(request, owner, client)
         terms = DayTerms(request.plan_within, request.eta_threshold, request.clock,
-                         secrets.token_urlsafe(), request.risk_threshold)
+                         secrets.token_urlsafe(), request.webhook, request.risk_threshold)
         return self._store.add(row, Begun(from_json(body)["problem"], terms), self._refuse_more)
 
     def find(self, name: str, owner: str) -> DayRow:

@@ -125,9 +125,16 @@ class DayStore:
             connection.execute(update(DAYS).where(DAYS.c.id == day, DAYS.c.lease_by == by).values(
                 lease_until=now_ms() + round(seconds * 1000)))
 
+    def find_any(self, day: str) -> DayRow | None:
+        """Return a day by its id alone, whoever's it is."""
+        with self._engine.connect() as connection:
+            return _one(connection, (DAYS.c.id == day) & DAYS.c.request.is_not(None))
+
     def publish(self, day: DayRow, by: str, reply: bytes, work: VehicleWork,
-                told: Sequence[ToldRow]) -> bool:
+                told: Sequence[ToldRow], also: Callable[[Connection], None]) -> bool:
         """Put a plan in place of the one before, with what follows from it. In place.
+
+        `also` is called in the same transaction.
 
         Returns
         -------
@@ -139,6 +146,7 @@ class DayStore:
             if revision is None:
                 return False
             log_events(connection, day.id, revision, BY_SERVICE, told)
+            also(connection)
             put_work(connection, day.id, work)
             connection.execute(update(DAYS).where(DAYS.c.id == day.id).values(
                 plan=content, planned=day.asked, plan_number=DAYS.c.plan_number + 1,

@@ -49,6 +49,7 @@ class JobDesk:
 
         threads = DatabaseThreads(queues.engine, THREADS, JobsUnavailableError)
         self.database = PreparedDatabase(threads, make_tables, store.find_misfit)
+        self.queues = queues
         self._store = store
         self._service = service
         self._zones = zones

@@ -26,7 +26,7 @@ from app.records.jobs.running import RegionTerms, Returning
 from app.records.jobs.service import JobService, OpenLimits
 from app.records.jobs.store import JobStore
 from app.records.jobs.studies import StudyWork
-from app.records.jobs.webhook import Caller, may_call_private
+from app.records.jobs.webhook import Caller, Message, may_call_private
 from app.records.jobs.worker import Worker
 from app.serving.observe.metrics import Metrics, countable
 from app.serving.settings import Settings
@@ -39,10 +39,16 @@ RETRY = 1.0
 """Seconds between two attempts to reach the database."""
 
 
+def nothing_elsewhere(_: Engine, __: str) -> None:
+    """Return no message."""
+
+
 @contextmanager
 def running_jobs(settings: Settings, planning: PlanDesk, metrics: Metrics,
                  on_plan: Callable[[Mapping[str, Any]], None],
-                 also_expire: Sequence[Callable[[Engine], None]] = ()) -> Iterator[JobDesk]:
+                 also_expire: Sequence[Callable[[Engine], None]] = (),
+                 elsewhere: Callable[[Engine, str], Message | None] = nothing_elsewhere,
+                 ) -> Iterator[JobDesk]:
     """Yield where endpoints turn to; jobs are worked on until the block ends.
 
     Parameters
@@ -57,6 +63,8 @@ def running_jobs(settings: Settings, planning: PlanDesk, metrics: Metrics,
         Is told of each plan made.
     also_expire
         What else deletes what has expired, besides jobs.
+    elsewhere
+        Returns messages to webhooks that aren't about jobs, by their names.
     """
     roads = planning.roads
     queues = Queues(connect(settings.database))
@@ -89,7 +97,7 @@ def running_jobs(settings: Settings, planning: PlanDesk, metrics: Metrics,
 
     housekeeper = Housekeeper(store, queues, also_expire, asking.forget_unused)
     worker = Worker(settings, store, queues, plans, divided, studies, housekeeper,
-                    _caller(settings))
+                    _caller(settings), partial(elsewhere, queues.engine))
     desk = JobDesk(store, queues, service, roads.zones)
     metrics.watch_jobs(desk.count)
     with _started(desk, worker, queues.engine, is_working=settings.role != "api"):

@@ -1,11 +1,12 @@
-"""Calls of a client's address when its job has ended: signed, tried again, to public hosts only."""
+"""Calls of a client's address, as when its job has ended: signed, tried again, to public hosts.
+"""
 
 import logging
 import socket
 import ssl
 from datetime import UTC, datetime
 from functools import cached_property
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 from urllib.parse import urlsplit
 
 import anyio
@@ -32,6 +33,18 @@ after five hours and a half."""
 MAX_URL_LENGTH = 2_000
 
 
+ELSEWHERE = "day:"
+"""Begins the names of messages that aren't about a job."""
+
+
+class Message(NamedTuple):
+    """What is sent to a webhook."""
+
+    url: str
+    id: str
+    body: str
+
+
 class UnreachableError(Exception):
     """A webhook's host is not to be called, or its answer was no success."""
 
@@ -41,8 +54,8 @@ def wait_after(failures: int) -> float | None:
     return None if failures >= MAX_FAILURES else FIRST_WAIT * WAIT_FACTOR ** (failures - 1)
 
 
-def check_url(url: str, settings: Settings) -> None:
-    """Refuse a webhook that could never be called.
+def check_url(url: str, settings: Settings, path: str = "query.webhook") -> None:
+    """Refuse a webhook that could never be called; `path` is where it is stated.
 
     Raises
     ------
@@ -62,8 +75,7 @@ def check_url(url: str, settings: Settings) -> None:
         problem = "The host is in a private network, which this service doesn't call " \
                   "(TANDEM_WEBHOOK_PRIVATE): state a public one."
     if problem is not None:
-        raise InvalidRequestError([InputError(code="WEBHOOK", path="query.webhook",
-                                              message=problem)])
+        raise InvalidRequestError([InputError(code="WEBHOOK", path=path, message=problem)])
 
 
 def host_of(url: str) -> str:

@@ -29,7 +29,9 @@ from app.records.jobs.replies import summary
 from app.records.jobs.slices import NOT_COMPUTED, Slice, Stopping
 from app.records.jobs.store import JobStore
 from app.records.jobs.studies import StudyWork
-from app.records.jobs.webhook import Caller, UnreachableError, wait_after
+from app.records.jobs.webhook import (
+    ELSEWHERE, Caller, Message, UnreachableError, wait_after,
+)
 from app.serving.settings import Settings
 
 logger = logging.getLogger(__name__)
@@ -93,11 +95,14 @@ class Worker:
         Who looks after jobs meanwhile.
     caller
         What calls webhooks; None: none are called.
+    elsewhere
+        Returns messages that aren't about jobs by their names; None: they are out of date.
     """
 
     def __init__(self, settings: Settings, store: JobStore, queues: Queues, plans: PlanWork,
                  divided: DividedWork, studies: StudyWork, housekeeper: Housekeeper,
-                 caller: Caller | None) -> None:
+                 caller: Caller | None,
+                 elsewhere: Callable[[str], Message | None]) -> None:
         self._settings = settings
         self._store = store
         self._queues = queues
@@ -107,6 +112,7 @@ class Worker:
         self._studies = studies
         self._housekeeper = housekeeper
         self._caller = caller
+        self._elsewhere = elsewhere
         self._stopping = threading.Event()
         self._held = ExitStack()  # what is to be given back at the end
         self._step: StepOptions = {
@@ -246,7 +252,7 @@ class Worker:
         return self._divided if is_divided else self._plans
 
     def _call_webhook(self, job_id: str, failures: int) -> None:
-        """Call a job's webhook, or enqueue a later call. In place."""
+        """Call a job's webhook, or one of another message, or enqueue a later call. In place."""
         problem = DBOS.run_step({**self._step, "name": CALL_STEP}, self._call, job_id)
         if problem is None:
             return
@@ -261,24 +267,33 @@ class Worker:
 
     def _webhook(self, job_id: str) -> str | None:
         """Return a job's webhook, if it is there and over."""
-        row = self._store.find(job_id)
-        return row.webhook if row is not None and row.is_over else None
+        message = self._message(job_id)
+        return None if message is None else message.url
 
     def _call(self, job_id: str) -> str | None:
         """Call a job's webhook; return what went wrong."""
-        row = self._store.find(job_id)
-        if row is None or row.webhook is None or not row.is_over:
+        message = self._message(job_id)
+        if message is None:
             return None
         if self._caller is None:
             return "there is no TANDEM_WEBHOOK_SECRET to sign it with"
-        finished = summary(row)
-        body = to_json({"type": f"job.{row.state}", "timestamp": finished["finished_at"],
-                        "data": finished}).decode()
         try:
-            self._caller.call(row.webhook, f"msg_{job_id}", body)
+            self._caller.call(*message)
         except UnreachableError as error:
             return str(error)
         return None
+
+    def _message(self, job_id: str) -> Message | None:
+        """Return what is to be told of a job, or by a name of another kind; None: nothing."""
+        if job_id.startswith(ELSEWHERE):
+            return self._elsewhere(job_id)
+        row = self._store.find(job_id)
+        if row is None or row.webhook is None or not row.is_over:
+            return None
+        finished = summary(row)
+        body = to_json({"type": f"job.{row.state}", "timestamp": finished["finished_at"],
+                        "data": finished}).decode()
+        return Message(row.webhook, f"msg_{job_id}", body)
 
     def _is_outage(self, error: BaseException) -> bool:
         """Tell whether a step failed only because of the database, which somebody will mend."""

@@ -4,6 +4,7 @@ import socket
 import threading
 from collections.abc import Callable
 from contextlib import suppress
+from http.server import BaseHTTPRequestHandler, HTTPServer
 
 
 class Receiver:
@@ -43,3 +44,32 @@ def drip(connection: socket.socket, is_over: threading.Event) -> None:
     connection.sendall(b"HTTP/1.1 200 OK\r\nX-Slow: ")
     while not is_over.wait(0.02):
         connection.sendall(b"x")
+
+
+class FailingReceiver:
+    """A webhook's receiver, which fails as often as told."""
+
+    def __init__(self, failures: int) -> None:
+        self.calls: list[tuple[dict[str, str], bytes]] = []
+        receiver = self
+
+        class Handler(BaseHTTPRequestHandler):
+            def do_POST(self) -> None:
+                body = self.rfile.read(int(self.headers["content-length"]))
+                receiver.calls.append((dict(self.headers), body))
+                self.send_response(500 if len(receiver.calls) <= failures else 204)
+                self.end_headers()
+
+            def log_message(self, *arguments: object) -> None:
+                """Say nothing."""
+
+        self._server = HTTPServer(("127.0.0.1", 0), Handler)
+        self._thread = threading.Thread(target=self._server.serve_forever)
+        self._thread.start()
+        self.url = f"http://localhost:{self._server.server_port}/hook"
+
+    def close(self) -> None:
+        """Receive no more."""
+        self._server.shutdown()
+        self._thread.join()
+        self._server.server_close()

@@ -6,7 +6,6 @@ import uuid
 from collections.abc import Iterator
 from concurrent.futures import ThreadPoolExecutor
 from functools import partial
-from http.server import BaseHTTPRequestHandler, HTTPServer
 from itertools import pairwise
 from typing import Any
 
@@ -16,6 +15,7 @@ from standardwebhooks import Webhook
 
 from app.maps.streets.gallery import Gallery
 from app.records.jobs.schemas import JobListReply, JobReply, ProgressEvent
+from tests.app.records.jobs.receiving import FailingReceiver
 from tests.app.records.jobs.stepping import (
     BROKEN_SEED, NUM_CUSTOMERS, RAISING_SEED, ended, read, request_of, submit,
 )
@@ -277,45 +277,16 @@ def test_metrics_count_jobs(jobs: httpx.Client) -> None:
         assert count >= 1
 
 
-class Receiver:
-    """A webhook's receiver, which fails as often as told."""
-
-    def __init__(self, failures: int) -> None:
-        self.calls: list[tuple[dict[str, str], bytes]] = []
-        receiver = self
-
-        class Handler(BaseHTTPRequestHandler):
-            def do_POST(self) -> None:
-                body = self.rfile.read(int(self.headers["content-length"]))
-                receiver.calls.append((dict(self.headers), body))
-                self.send_response(500 if len(receiver.calls) <= failures else 204)
-                self.end_headers()
-
-            def log_message(self, *arguments: object) -> None:
-                """Say nothing."""
-
-        self._server = HTTPServer(("127.0.0.1", 0), Handler)
-        self._thread = threading.Thread(target=self._server.serve_forever)
-        self._thread.start()
-        self.url = f"http://localhost:{self._server.server_port}/hook"
-
-    def close(self) -> None:
-        """Receive no more."""
-        self._server.shutdown()
-        self._thread.join()
-        self._server.server_close()
-
-
 @pytest.fixture
-def receiver() -> Iterator[Receiver]:
+def receiver() -> Iterator[FailingReceiver]:
     """Return a receiver that fails at first."""
-    receiver = Receiver(failures=1)
+    receiver = FailingReceiver(failures=1)
     yield receiver
     receiver.close()
 
 
 def test_webhook_is_signed_and_called_again_after_a_failure(
-        jobs: httpx.Client, receiver: Receiver) -> None:
+        jobs: httpx.Client, receiver: FailingReceiver) -> None:
     job = ended(jobs, submit(jobs, request_of(0.1), params={"webhook": receiver.url}))
     eventually(lambda: len(receiver.calls) == 2)
     (first, second) = [Webhook(SECRET).verify(body, headers) for headers, body in receiver.calls]
