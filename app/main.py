@@ -34,6 +34,7 @@ from app.plans.routes import router as plans_router
 from app.plans.workplace import opened, opened_with
 from app.records.days.routes import router as days_router
 from app.records.days.runner import AT_ONCE
+from app.records.days.pages import mount_customers_page
 from app.records.days.running import running_days
 from app.records.days.webhooks import message_of
 from app.records.dispatches.pages import mount_drivers_page
@@ -115,6 +116,7 @@ def create_app(settings: Settings | None = None, planner: Planner | None = None)
         app.include_router(router)
     _map_errors(app)
     mount_drivers_page(app)
+    mount_customers_page(app)
     mount_console(app)
     mount_guide(app)
     app.openapi = describe(app)  # type: ignore[method-assign]

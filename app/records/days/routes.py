@@ -18,7 +18,8 @@ from app.records.days.fold import KINDS
 from app.records.days.rows import DayRow
 from app.records.days.runner import DayRunner
 from app.records.days.schemas import (
-    AcceptRequest, DayEventsReply, DayPlanReply, DayReply, DayRequest, LoggedReply,
+    AcceptRequest, CustomerLinksReply, DayEventsReply, DayPlanReply, DayReply, DayRequest,
+    LoggedReply,
 )
 from app.records.days.service import DayService, logged
 from app.records.days.store import DayStore
@@ -116,6 +117,16 @@ async def accept_quote(request: Request, day_id: DayId, token: Token, principal:
         day_id, principal.key_id, token, body.content))
     _hurry(request)
     return _json(reply, 202)
+
+
+@router.get("/days/{day_id}/links", summary="Get customers' links",
+            response_model=CustomerLinksReply, responses=FOUND)
+async def customer_links(request: Request, day_id: DayId, principal: Jobs,
+                         database: Database) -> Response:
+    """Return a link for each order, which opens a page that tells its customer when who comes."""
+    base = request.app.state.settings.public_url or str(request.base_url)
+    return _json(await database.reach(
+        lambda engine: _service(request, engine).links(day_id, principal.key_id, base)))
 
 
 @router.get("/days/{day_id}/plan", summary="Read a day's plan", response_model=DayPlanReply,

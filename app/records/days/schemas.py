@@ -103,6 +103,47 @@ class DayReply(_Reply):
         [], description="Vehicles and drones that do nothing more.")
 
 
+class CustomerLink(_Reply):
+    """A page of its own for whom an order is."""
+
+    order: str = Field(description="As the plan's stop is named.")
+    url: str = Field(description="Opens a page that tells when who comes, and nothing else.")
+
+
+class CustomerLinksReply(_Reply):
+    """Links for customers, which hold until the day is over or the order is cancelled."""
+
+    links: list[CustomerLink] = Field(description="One for each order.")
+
+
+VisitState = Literal["open", "coming", "served", "failed"]
+
+
+class ToldArrival(_Reply):
+    """When somebody was told when to expect whom."""
+
+    at: datetime = Field(description="When it was told.")
+    arrival: datetime = Field(description="The arrival that was told.")
+
+
+class VisitStatusReply(_Reply):
+    """What a customer may know of its order."""
+
+    order: str = Field(description="Its name.")
+    state: VisitState = Field(
+        description="`open`: not planned, `coming`, `served`, or `failed`.")
+    by: Literal["truck", "drone"] | None = Field(None, description="What brings it.")
+    vehicle: str | None = Field(
+        None, description="Name of the vehicle, also of that from which the drone flies.")
+    arrival: datetime | None = Field(None, description="When it is expected, or came.")
+    earliest: datetime | None = Field(None, description="On a tenth of all days it came by then.")
+    latest: datetime | None = Field(None, description="On nine tenths of them.")
+    told: list[ToldArrival] = Field(description="What `eta.changed` told, in order.")
+    plan_start: datetime = Field(description="The day's begin.")
+    time_zone: str | None = Field(description="Zone of its wall clock.")
+    ends_at: datetime = Field(description="Until when the link holds.")
+
+
 class DayPlanReply(_Reply):
     """A day's plan."""
 

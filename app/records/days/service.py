@@ -11,6 +11,7 @@ from pydantic_core import from_json, to_json
 
 from app.plans.telling import Telling
 from app.records.clock import now_ms
+from app.records.days.customers import links_of
 from app.records.days.errors import (
     DayOverError, NoDayPlanError, TooManyDayEventsError, UnknownDayError,
 )
@@ -23,8 +24,8 @@ from app.records.days.quoting import accepted, body_of, with_token
 from app.records.days.rows import Begun, DayRow, DayTerms, LoggedEvent
 from app.records.days.runner import now_of
 from app.records.days.schemas import (
-    AcceptRequest, DayEventsReply, DayReply, DayRequest, LoggedReply, OrderReply, OrderState,
-    TakenReply, VehicleReply,
+    AcceptRequest, CustomerLinksReply, DayEventsReply, DayReply, DayRequest, LoggedReply,
+    OrderReply, OrderState, TakenReply, VehicleReply,
 )
 from app.records.days.spreads import chance_of, is_stated, without_chances
 from app.records.days.store import BY_CLIENT, DayStore
@@ -187,6 +188,15 @@ class DayService:
         telling.tell(PlanReply, plan)
         return {"number": row.plan_number, "planned": row.planned,
                 "plan": {**telling.stated, **plan}}
+
+    def links(self, name: str, owner: str, base: str) -> CustomerLinksReply:
+        """Return a link for each order, `base` being the service's address; raises as `find`."""
+        row = self.find(name, owner)
+        begun = self._store.begun(row.id)
+        told = fold(begun, self._store.log(row.id), row.plan_start)
+        content = self._store.plan(row.id)
+        plan = PlanInput(routes=()) if content is None else parse_plan(content)
+        return CustomerLinksReply(links=links_of(base, begun, row, told, plan))
 
     def read(self, name: str, owner: str) -> DayReply:
         """Return how a day stands; raises as `find` does."""

@@ -12,7 +12,7 @@ function exported(source) {
   return new Set(names.map((name) => name.trim().split(/ as |: /).pop()));
 }
 
-for (const page of ['console/static/js/', 'records/dispatches/static/js/']) {
+for (const page of ['console/static/js/', 'records/dispatches/static/js/', 'records/days/static/js/']) {
   test(`${page}: whatever is imported is exported`, () => {
     const folder = new URL(page, APP);
     const files = readdirSync(folder, { recursive: true }).filter((name) => name.endsWith('.js'));

@@ -9,7 +9,7 @@ import { speaking } from '../../../app/console/static/js/language.js';
 register('./as-served.mjs', import.meta.url);
 
 const APP = new URL('../../../app/', import.meta.url);
-const PAGES = ['console/static/', 'records/dispatches/static/'];
+const PAGES = ['console/static/', 'records/dispatches/static/', 'records/days/static/'];
 const PLURAL = /_(one|other)$/;
 
 async function textsOf(page, language) {

@@ -179,7 +179,9 @@ def test_openapi_tells_how_to_send_keys(guarded: httpx.Client) -> None:
     shared = description["paths"]["/shared-plan"]["get"]
     assert shared["security"] == [{"ShareToken": []}]
     assert description["paths"]["/drive/day"]["get"]["security"] == [{"DriverLink": []}]
-    assert set(schemes) == {"HTTPBearer", "APIKeyHeader", "ShareToken", "DriverLink"}
+    assert description["paths"]["/visit/order"]["get"]["security"] == [{"CustomerLink": []}]
+    assert set(schemes) == {"HTTPBearer", "APIKeyHeader", "ShareToken", "DriverLink",
+                            "CustomerLink"}
     assert {"401", "403", "408", "429", "503"} <= set(plan["responses"])
 
 
