@@ -3,7 +3,7 @@
 import asyncio
 from collections.abc import AsyncGenerator
 from functools import partial
-from typing import Annotated
+from typing import Annotated, Any
 
 from fastapi import APIRouter, Header, Path, Query, Request, Response
 from pydantic import BaseModel
@@ -137,6 +137,16 @@ async def read_day_plan(request: Request, day_id: DayId, principal: Jobs,
     reply = await database.reach(lambda engine: _service(request, engine).plan(
         day_id, principal.key_id))
     return Response(to_json(reply), media_type="application/json")
+
+
+@router.get("/days/{day_id}/problem", summary="Read a day's problem", response_model=dict[str, Any],
+            responses=FOUND)
+async def read_day_problem(request: Request, day_id: DayId, principal: Jobs,
+                           database: Database) -> Response:
+    """Return what the day began with, and all orders that its plan has or that are waiting."""
+    return Response(to_json(await database.reach(
+        lambda engine: _service(request, engine).problem(day_id, principal.key_id))),
+        media_type="application/json")
 
 
 @router.get("/days/{day_id}/events", summary="Follow a day", response_class=EventSourceResponse,

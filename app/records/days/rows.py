@@ -14,9 +14,7 @@ from app.records.dispatches.schemas import EventKind
 class DayRow(DispatchRow):
     """A day without what it began with, its plan and its events."""
 
-    name: str | None = None
     revision: int = 0
-    asked: int = 0
     planned: int = 0
     plan_number: int = 0
     failure: str | None = None

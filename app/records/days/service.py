@@ -198,6 +198,21 @@ class DayService:
         plan = PlanInput(routes=()) if content is None else parse_plan(content)
         return CustomerLinksReply(links=links_of(base, begun, row, told, plan))
 
+    def problem(self, name: str, owner: str) -> dict[str, Any]:
+        """Return a day's problem with the orders that were told; raises as `find` does."""
+        row = self.find(name, owner)
+        begun = self._store.begun(row.id)
+        told = fold(begun, self._store.log(row.id), row.plan_start)
+        content = self._store.plan(row.id)
+        planned = {order.partition("/")[0] for order, _, _ in visits(
+            PlanInput(routes=()) if content is None else parse_plan(content))}
+        stay = {order: each for order, each in told.cancelled.items() if order in planned}
+        return {**begun.problem,
+                "customers": [*told.customers.values(), *(
+                    each for each in stay.values() if "delivery" not in each)],
+                "shipments": [*told.shipments.values(), *(
+                    each for each in stay.values() if "delivery" in each)]}
+
     def read(self, name: str, owner: str) -> DayReply:
         """Return how a day stands; raises as `find` does."""
         row = self.find(name, owner)

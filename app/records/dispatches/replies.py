@@ -14,7 +14,7 @@ from app.records.dispatches.standing import standing_reply
 def summary(row: DispatchRow) -> DispatchSummary:
     """Return a dispatch without its links."""
     return DispatchSummary(
-        id=row.id, created_at=instant(row.created_at), time_zone=row.time_zone,
+        id=row.id, created_at=instant(row.created_at), time_zone=row.time_zone, day=row.day,
         plan_start=instant(row.plan_start, row.zone_offset),
         ends_at=instant(row.ends_at, row.zone_offset), expires_at=instant(row.expires_at))
 

@@ -18,6 +18,13 @@ class DispatchRow:
     expires_at: int
     zone_offset: int  # minutes
     time_zone: str | None
+    name: str | None = None  # of a day that is planned as it goes on
+    asked: int = 0  # number of the last event that such a day is planned for
+
+    @property
+    def day(self) -> str | None:
+        """What such a day is called; None: others plan on from this plan."""
+        return (self.name or self.id) if self.asked else None
 
 
 @dataclass(frozen=True)

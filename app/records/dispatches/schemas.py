@@ -202,6 +202,7 @@ class DispatchSummary(_Reply):
     time_zone: str | None = Field(description="Zone in which drivers read times.")
     ends_at: datetime = Field(description="When its links end.")
     expires_at: datetime = Field(description="When all that is kept of it is deleted.")
+    day: str | None = Field(None, description="Its name among `/days`, if it is one of them.")
 
 
 class DispatchReply(DispatchSummary):

@@ -66,6 +66,17 @@ def test_nobody_moves_where_that_is_dear_and_what_was_told_is_the_promise(
     assert plan["cost"]["changes"] == pytest.approx(late / 60)
 
 
+def test_whoever_opens_a_day_gets_its_problem_and_finds_it_among_plans_on_the_road(
+        service: httpx.Client) -> None:
+    day = begun(service, id="found-again")
+    told(service, day, order("G", -2, 0), {"kind": "order.cancelled", "order": "F"}, at=10)
+    problem = service.get("/days/found-again/problem").json()
+    assert [each["id"] for each in problem["customers"]] == ["A", "B", "C", "D", "E", "G"]
+    assert problem["fleet"] == PROBLEM["fleet"]
+    listed = {each["id"]: each["day"] for each in service.get("/dispatches").json()["dispatches"]}
+    assert listed[standing(service, day).dispatch] == "found-again"
+
+
 def test_what_has_happened_stays_and_is_planned_on_from(service: httpx.Client) -> None:
     day = begun(service)
     before = plan_of(service, day)
