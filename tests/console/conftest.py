@@ -94,7 +94,7 @@ def opening(browser: Browser, visitor: BrowserContext | None = None, example: st
         else:
             contexts.append(new_context(browser, **options))
             page = contexts[-1].new_page()
-        complaints.append(Complaints(page, address, allow))
+        complaints.append(Complaints(page, address.partition("#")[0], allow))
         page.goto(beginning(address, example))
         return page
 

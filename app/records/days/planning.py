@@ -53,7 +53,8 @@ def asked(begun: Begun, told: ToldDay, plan: PlanInput | None,
     request = {**begun.problem, "options": options}
     failed: dict[str, float] = {}
     if plan is None:
-        replan: Data = {"plan": {"routes": []}, "freeze_before": now}
+        given = begun.problem.get("replan") or {"plan": {"routes": []}}
+        replan: Data = {"plan": given["plan"], "freeze_before": now}
     else:
         late = delayed(plan, told, seen, late_by_position(begun, told, plan, seen))
         vehicles = {route.vehicle: OnTheRoad(steps.get(route.vehicle, ()),

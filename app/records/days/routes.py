@@ -27,6 +27,7 @@ from app.records.dispatches.store import DispatchStore
 from app.records.jobs.events import while_admitted
 from app.records.prepared import Database, PreparedDatabase
 from app.requests.bounds import Bounds
+from app.schemas.day import Times
 from app.schemas.openapi import event_stream, json_body, problems
 from app.schemas.quote import OrderAsked, QuoteReply
 from app.serving.access.guard import Guard, Jobs
@@ -131,11 +132,14 @@ async def customer_links(request: Request, day_id: DayId, principal: Jobs,
 
 @router.get("/days/{day_id}/plan", summary="Read a day's plan", response_model=DayPlanReply,
             responses=FOUND | problems(_409="There is no plan yet."))
-async def read_day_plan(request: Request, day_id: DayId, principal: Jobs,
-                        database: Database) -> Response:
+async def read_day_plan(
+    request: Request, day_id: DayId, principal: Jobs, database: Database,
+    times: Annotated[Times | None, Query(
+        description="How instants are told. Left out: as the day's problem asks.")] = None,
+) -> Response:
     """Return the plan that counts now: what has happened, and what is to be done."""
     reply = await database.reach(lambda engine: _service(request, engine).plan(
-        day_id, principal.key_id))
+        day_id, principal.key_id, times))
     return Response(to_json(reply), media_type="application/json")
 
 

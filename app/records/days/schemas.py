@@ -22,8 +22,9 @@ class DayRequest(Input):
     """A day that begins."""
 
     problem: PlanRequest = Field(
-        description="Fleet, depots, and the orders that are known, as `POST /plan` takes them; no "
-        "`replan`. `plan_start` says which day it is; null: today, in UTC or `time_zone`.")
+        description="Fleet, depots, and the orders that are known, as `POST /plan` takes them; of "
+        "`replan` its plan, with which the day begins. `plan_start` says which day it is; null: "
+        "today, in UTC or `time_zone`.")
     id: DayName | None = Field(
         None, description="A name of your own: the same request sent again finds its day. Null: "
         "the service makes one.")

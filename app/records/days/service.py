@@ -38,7 +38,7 @@ from app.records.jobs.webhook import check_url
 from app.requests.bounds import Bounds
 from app.requests.plan_reading import parse_plan
 from app.requests.reading import read_json, read_model, request_errors
-from app.schemas.day import DayOfBody
+from app.schemas.day import DayOfBody, Times
 from app.schemas.errors import InputError, InvalidRequestError
 from app.schemas.plan import PlanInput
 from app.schemas.request import PlanRequest
@@ -84,9 +84,6 @@ class DayService:
         """
         request = read_model(body, DayRequest)
         errors = request_errors(request.problem, self._policies, self._bounds)
-        if request.problem.replan is not None:
-            errors.append(InputError(code="UNKNOWN_FIELD", path="$.replan", message="A day begins "
-                                     "without a plan: leave it out."))
         if errors:
             raise InvalidRequestError([error.model_copy(update={
                 "path": f"$.problem{error.path[1:]}"}) for error in errors])
@@ -166,8 +163,8 @@ class DayService:
                          max(0.0, row.seconds(now_of(told))))
         return self.tell(name, owner, to_json([event]))
 
-    def plan(self, name: str, owner: str) -> dict[str, Any]:
-        """Return a day's plan, and which it is; times as its problem asks for.
+    def plan(self, name: str, owner: str, times: Times | None = None) -> dict[str, Any]:
+        """Return a day's plan, and which it is; times as its problem asks for, or as stated.
 
         Raises
         ------
@@ -181,8 +178,10 @@ class DayService:
         plan = dict(from_json(content))
         begun = self._store.begun(row.id)
         stated = begun.problem
-        telling = Telling.of(read_body(PlanRequest, to_json({**stated, "customers": [],
-                                                             "shipments": [], "relations": []})))
+        if times is not None:
+            stated = {**stated, "options": {**stated.get("options", {}), "times": times}}
+        telling = Telling.of(read_body(PlanRequest, to_json({
+            **stated, "customers": [], "shipments": [], "relations": [], "replan": None})))
         if not is_stated(begun):
             plan = without_chances(plan)
         telling.tell(PlanReply, plan)
@@ -207,7 +206,7 @@ class DayService:
         planned = {order.partition("/")[0] for order, _, _ in visits(
             PlanInput(routes=()) if content is None else parse_plan(content))}
         stay = {order: each for order, each in told.cancelled.items() if order in planned}
-        return {**begun.problem,
+        return {**begun.problem, "replan": None,
                 "customers": [*told.customers.values(), *(
                     each for each in stay.values() if "delivery" not in each)],
                 "shipments": [*told.shipments.values(), *(
@@ -265,7 +264,7 @@ class DayService:
     def _order_errors(self, problem: dict[str, Any], customers: dict[str, Any],
                       shipments: dict[str, Any], origin: dict[str, int]) -> list[InputError]:
         """Return what is wrong with orders, where the events of these numbers state them."""
-        whole = {**problem, "customers": list(customers.values()),
+        whole = {**problem, "replan": None, "customers": list(customers.values()),
                  "shipments": list(shipments.values())}
         errors = request_errors(read_body(PlanRequest, to_json(whole)), self._policies,
                                 self._bounds)

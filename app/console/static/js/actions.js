@@ -117,6 +117,7 @@ export function openRequest(
     locks: [],
     doubts: {},
     fit: null,
+    live: null,
     tool: null,
     order: NOTHING_TYPED,
     sweepAxes: null,

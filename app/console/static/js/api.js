@@ -257,23 +257,50 @@ export const deleteLink = (id, link) =>
 export const getSharedPlan = (token) =>
   json('shared-plan', { headers: { 'X-Share-Token': token } });
 
+/** Begin a day and return how it stands. */
+export const postDay = (body) => json('days', { method: 'POST', body });
+
+const dayPath = (id) => `days/${encodeURIComponent(id)}`;
+
+/** Return how a day stands, or what of it is at a path. */
+export const getDay = (id, path = '') => json(`${dayPath(id)}${path}`);
+
+/** Tell a day something, or ask it, at a path. */
+export const postToDay = (id, path, body) =>
+  json(`${dayPath(id)}/${path}`, { method: 'POST', body });
+
+/** Follow all that happens on a day, from its beginning until `signal` ends it. */
+export async function followDay(id, onEvent, signal) {
+  try {
+    await follow(`${dayPath(id)}/events`, ({ data }) => onEvent(JSON.parse(data)), signal);
+  } catch (error) {
+    if (error.name !== 'AbortError') throw error;
+  }
+}
+
 /**
- * Follow a job to its end, over lost connections too, and return it without its result.
+ * Follow a job to its end and return it without its result.
  *
  * @param onProgress called with each progress
  * @param signal ends the following, by an `AbortError`
  */
-export async function followJob(id, onProgress, signal) {
+export const followJob = (id, onProgress, signal) =>
+  follow(`jobs/${encodeURIComponent(id)}/events`, ({ event, data }) => {
+    if (event === 'progress') onProgress(JSON.parse(data));
+    return event === 'end' ? JSON.parse(data) : null;
+  }, signal);
+
+/** Follow a stream, over lost connections too, until `onEvent` returns what it ends with. */
+async function follow(path, onEvent, signal) {
   let last = null;
   let ended = null;
-  const read = eventReader(({ event, id: number, data }) => {
-    last = number ?? last;
-    if (event === 'progress') onProgress(JSON.parse(data));
-    if (event === 'end') ended = JSON.parse(data);
+  const read = eventReader((event) => {
+    last = event.id ?? last;
+    ended = onEvent(event) ?? ended;
   });
   for (let failures = 0; !ended;) {
     try {
-      await readEvents(`jobs/${encodeURIComponent(id)}/events`, last, read, signal);
+      await readEvents(path, last, read, signal);
       failures = 0;
     } catch (error) {
       failures += 1;

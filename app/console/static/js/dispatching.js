@@ -31,8 +31,8 @@ export function isToBeSent(state) {
   const entry = shownPlan(state);
   const isOfDay = state.tab === 'drivers'
     || state.plans.some((other) => other.plan === state.dispatch?.plan);
-  return isOnTheRoad(state) && isOfDay && state.run.state === 'idle' && entry !== null
-    && entry.plan !== state.dispatch.plan && !entry.hand?.violations.length;
+  return isOnTheRoad(state) && !state.live && isOfDay && state.run.state === 'idle'
+    && entry !== null && entry.plan !== state.dispatch.plan && !entry.hand?.violations.length;
 }
 
 /** Put the plan that is looked at in the place of what drivers have: they keep their links. */
@@ -136,7 +136,8 @@ function keep(made, reply, plan = store.get().dispatch?.plan ?? null) {
   // Tokens are kept as the key is: until the tab is closed.
   sessionStorage.setItem(KEPT, JSON.stringify({ id: reply.id, made: all }));
   clearTimeout(timer);
-  if (reply.links.some(({ state }) => state === 'open')) timer = setTimeout(poll, POLL_MS);
+  const isOpen = store.get().live || reply.links.some(({ state }) => state === 'open');
+  if (isOpen) timer = setTimeout(poll, POLL_MS);
 }
 
 async function poll() {

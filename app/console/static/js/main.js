@@ -5,6 +5,7 @@ import { openRequest, showFailure } from './actions.js';
 import * as api from './api.js';
 import { followKept } from './dispatching.js';
 import { recallFrame } from './frame.js';
+import { dayInAddress, openDay } from './living.js';
 import { adopt, startKeeping } from './keeping/drafts.js';
 import { goOn, listenToLinks, tokenInAddress, viewShared } from './keeping/kept.js';
 import { plan } from './planning.js';
@@ -44,7 +45,7 @@ async function begin() {
     const [description, config, restored] = await Promise.all([
       api.getDescription(),
       api.getConfig(),
-      startKeeping(tokenInAddress() !== null),
+      startKeeping(tokenInAddress() !== null || dayInAddress() !== null),
     ]);
     const { examples } = description.paths['/plan'].post.requestBody.content['application/json'];
     store.set({
@@ -69,6 +70,12 @@ async function open(restored, examples) {
   if (token) {
     await viewShared(token);
     await untilReady();
+    return;
+  }
+  const day = dayInAddress();
+  if (day) {
+    await untilReady();
+    await openDay(day.id, day.isWall);
     return;
   }
   if (restored) {

@@ -7,6 +7,7 @@ import {
 } from './core/orders.js';
 import { goOnFrom } from './core/replanning.js';
 import { askFit } from './hands.js';
+import { askQuote } from './quoting.js';
 import { store } from './store.js';
 import { t } from './texts.js';
 
@@ -49,6 +50,7 @@ async function price(entry, customer) {
     select(`c:${customer.id}`);
     return true;
   }
+  if (store.get().live) return askQuote(customer);
   const now = store.get().request.replan?.freeze_before ?? nowOf(entry.request);
   return askFit(customer, askedFor(entry.request, entry.plan, now));
 }

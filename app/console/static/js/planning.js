@@ -226,7 +226,7 @@ async function follow(task) {
 }
 
 /** Return a function that runs `work` again only when it has ended, and once more if asked to. */
-function latestOf(work) {
+export function latestOf(work) {
   let running = false;
   let again = false;
   return async function run() {

@@ -6,9 +6,12 @@ import { language, t } from '../texts.js';
 
 /** Return what sends a plan out; its seconds count from the day's midnight here, unless stated. */
 export function dispatchOf({ request, plan }, now = new Date()) {
+  return { problem: request, plan, ...dayOf(request, now) };
+}
+
+/** Return when a problem's day is: the day is today here, unless stated. */
+export function dayOf(request, now = new Date()) {
   return {
-    problem: request,
-    plan,
     plan_start: request.plan_start ?? isoOf(midnight(now)),
     time_zone: request.time_zone ?? Intl.DateTimeFormat().resolvedOptions().timeZone,
   };
@@ -33,8 +36,9 @@ function isoOf(instant) {
 export function openDispatches(dispatches, now = new Date()) {
   return dispatches
     .filter(({ ends_at: ends }) => new Date(ends) > now)
-    .map(({ id, created_at: created, plan_start: start }) => ({
+    .map(({ id, day, created_at: created, plan_start: start }) => ({
       id,
+      day,
       words: t('standing.sentOut', {
         day: start.slice(0, 10),
         when: new Date(created).toLocaleString(language(), {
@@ -67,7 +71,7 @@ const LATE = 60;
 /** Return how far a driver is, in words. */
 export function standingText({ state, opened_at: opened, done, failed, steps, standing }) {
   if (state === 'revoked') return t('standing.revoked');
-  const broken = hasBroken({ standing }) ? `${t('standing.broken')}; ` : '';
+  const broken = isBrokenDown({ standing }) ? `${t('standing.broken')}; ` : '';
   const over = done + failed;
   const last = standing.reduce((latest, { time }) => Math.max(latest, time), -Infinity);
   const opening = opened ? t('standing.opened') : t('standing.unopened');
@@ -78,10 +82,11 @@ export function standingText({ state, opened_at: opened, done, failed, steps, st
 
 /** Tell whether a driver who isn't done is late, or has broken down. */
 export function isInTrouble(link) {
-  return link.state === 'open' && (hasBroken(link) || behindPlan(link) > 0);
+  return link.state === 'open' && (isBrokenDown(link) || behindPlan(link) > 0);
 }
 
-function hasBroken({ standing }) {
+/** Tell whether a vehicle has broken down. */
+export function isBrokenDown({ standing }) {
   return standing.some(({ kind, state }) => kind === 'vehicle' && state === 'failed');
 }
 

@@ -140,7 +140,7 @@ function brokenOff(route, progress, now) {
  */
 export function settledParts(entry, request) {
   const ahead = request.replan?.plan === entry.plan;
-  const replan = ahead ? request.replan : entry.request.replan;
+  const replan = ahead ? request.replan : entry.replan ?? entry.request.replan;
   const parts = new Map();
   if (replan?.freeze_before === null || replan?.freeze_before === undefined) return parts;
   const told = new Map(entry.plan.replan?.settled.map((kept) => [kept.vehicle, kept]));

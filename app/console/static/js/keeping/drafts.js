@@ -109,7 +109,7 @@ function note(state) {
     last = state;
     return;
   }
-  if (!state.request || state.viewing || isKeptAlike(last, state)) return;
+  if (!state.request || state.viewing || state.live || isKeptAlike(last, state)) return;
   const former = last;
   last = state;
   if (state.epoch !== former.epoch && former.request && isUnsaved(former)) leave(former);

@@ -300,32 +300,29 @@ export function stopNumbers(trip) {
   );
 }
 
-/** Return marks of the customers who are pinned to their vehicles. */
-export function pinMarks(request) {
-  const pinned = new Set(request.replan?.pinned ?? []);
-  return request.customers
-    .filter((customer) => placeOf(customer) && pinned.has(customer.id))
-    .map(({ location }) =>
-      L.marker(latLng(location), {
-        interactive: false,
-        keyboard: false,
-        zIndexOffset: 400,
-        icon: labelIcon('pin-mark', '\u25be'),
-      }),
-    );
+/** Return marks beside places: `{location, className, text}`. */
+export function notes(marked) {
+  return marked.filter(placeOf).map(({ location, className, text }) =>
+    L.marker(latLng(location), {
+      interactive: false,
+      keyboard: false,
+      zIndexOffset: 450,
+      icon: labelIcon(className, text),
+    }),
+  );
 }
 
-/** Return marks of the customers whose place is doubtful. */
-export function doubtMarks(request, doubts) {
+/** Return what is noted beside customers: that they are pinned or doubtful, and a day's news. */
+export function notedIn(request, index, doubts, news) {
+  const pinned = new Set(request.replan?.pinned ?? []);
   const doubted = new Set(doubtedPlaces(request, doubts).map(({ id }) => id));
-  return request.customers
-    .filter((customer) => placeOf(customer) && doubted.has(customer.id))
-    .map(({ location }) =>
-      L.marker(latLng(location), {
-        interactive: false,
-        keyboard: false,
-        zIndexOffset: 450,
-        icon: labelIcon('doubt-mark', '?'),
-      }),
-    );
+  return visitsOf(request).flatMap(({ id, location }) => {
+    const said = news?.get(`c:${id}`);
+    const at = index?.halts.get(`c:${id}`)?.location ?? location;
+    return [
+      ...(pinned.has(id) ? [{ location, className: 'pin-mark', text: '\u25be' }] : []),
+      ...(doubted.has(id) ? [{ location, className: 'doubt-mark', text: '?' }] : []),
+      ...(said ? [{ location: at, className: `news ${said.kind}`, text: said.text }] : []),
+    ];
+  });
 }

@@ -125,17 +125,18 @@ function Map({ request, entry, onView, isMain = false }) {
     };
   }, []);
   const doubts = useStore((state) => state.doubts);
+  const news = useStore(({ live }) => live?.news);
   // Before anything is drawn, or all would be drawn twice.
   useEffect(() => view?.fit(request), [view, firstPlace(request)]);
   useEffect(() => view?.setGround(tiles), [view, tiles]);
   useEffect(() => view?.shade(dark), [view, dark]);
   useEffect(
-    () => view?.draw(request, index, parts, dark, doubts),
-    [view, request, index, parts, dark, doubts],
+    () => view?.draw(request, index, parts, dark, doubts, news),
+    [view, request, index, parts, dark, doubts, news],
   );
   useEffect(
     () => (view ? followMarks(view, request, index) : undefined),
-    [view, request, index, parts, dark, doubts],
+    [view, request, index, parts, dark, doubts, news],
   );
   useEffect(() => (view && index ? followClock(view, index) : undefined), [view, index, dark]);
   return html`<div class="map" ref=${element} data-geographic=${geographic}></div>`;
@@ -172,10 +173,10 @@ function followMarks(view, request, index) {
 function followClock(view, index) {
   const placesAt = playback(index, flownLines(index.request));
   let last;
-  const follow = ({ time }) => {
+  const follow = ({ time, live }) => {
     if (time === last) return;
     last = time;
-    view.move(time === null ? null : placesAt(time));
+    view.move(time === null ? null : whereTold(placesAt(time), live?.day, time));
   };
   follow(store.get());
   const end = store.subscribe(follow);
@@ -183,4 +184,17 @@ function followClock(view, index) {
     end();
     view.move(null);
   };
+}
+
+const LASTS = 600; // seconds for which a vehicle is where it was told to be
+
+/** Return places with vehicles where they were told to be just now. */
+function whereTold(places, day, time) {
+  const told = day?.vehicles.filter(({ position, told_at: at }) =>
+    position && time === day.now && time - at < LASTS);
+  return told?.length ? { ...places, trucks: places.trucks.map((truck) => ({
+    ...truck,
+    location: told.find(({ vehicle }) => vehicle === truck.vehicle.name)?.position
+      ?? truck.location,
+  })) } : places;
 }

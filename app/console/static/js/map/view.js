@@ -10,14 +10,14 @@ import { leaflet } from '../libraries.js';
 import {
   bufferShapes,
   customerMarks,
-  doubtMarks,
   labelIcon,
   latLng,
   legAt,
   legLine,
   noFlyShapes,
+  notedIn,
+  notes,
   zoneShapes,
-  pinMarks,
   placeMarks,
   planLines,
   stopNumbers,
@@ -151,7 +151,7 @@ export class MapView {
   }
 
   /** Show a problem and, if there is one, its plan; `parts` of it are settled. */
-  draw(request, index, parts, dark, doubts = {}) {
+  draw(request, index, parts, dark, doubts = {}, news = null) {
     const isNew = index !== this.index;
     Object.assign(this, { request, index, dark });
     this.credit.setPrefix(index && drivesStraight(index) ? t('map.straight') : false);
@@ -172,8 +172,7 @@ export class MapView {
     placeMarks([...request.depots, ...others]).forEach((mark) => this.labels.addLayer(mark));
     this.sites = placeMarks(sites).map((mark, at) => ({ id: sites[at].id, mark }));
     this.sites.forEach(({ mark }) => this.labels.addLayer(mark));
-    pinMarks(request).forEach((mark) => this.labels.addLayer(mark));
-    doubtMarks(request, doubts).forEach((mark) => this.labels.addLayer(mark));
+    notes(notedIn(request, index, doubts, news)).forEach((mark) => this.labels.addLayer(mark));
     if (index) tripLabels(index, dark).forEach((mark) => this.labels.addLayer(mark));
     this.marked = '';
     this.map.fire('drawn');

@@ -18,6 +18,7 @@ export const PLANS = {
   why: { plan: null, answers: new Map() }, // what was asked about a plan, by customer
   prices: { plan: null, found: new Map() }, // of remedies in a plan, by their group
   dispatch: null, // a plan on the road: its reply, links by id as made, its plan if known
+  live: null, // the day that is followed, see living.js
   untold: null, // what drivers told, while it is asked whether others were served
   onTheRoad: null, // plans on the road that may be followed, once they were asked for
 };

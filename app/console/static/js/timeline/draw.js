@@ -226,6 +226,11 @@ function drawBar(context, row, bar, scale, view) {
     context.fillRect(x, box.y, width, box.height);
   }
   context.globalAlpha = alpha;
+  const said = bar.kind === 'serve' && view.news?.get(bar.key);
+  if (said) {
+    context.fillStyle = colours[said.kind];
+    context.fillRect(x - 1, row.top, Math.max(width, 4) + 2, 4);
+  }
   if ([selection, hover].includes(bar.key) && bar.key[0] !== 'v') {
     context.strokeStyle = colours.text;
     context.lineWidth = 1.5;

@@ -17,6 +17,7 @@ import { AXIS, drawTimeline, heightOf, hit, isNear, placeRows, scaleOf } from '.
 import { Player } from './player.js';
 import { t } from '../texts.js';
 
+const NEWS = { new: 'good', moved: 'accent', later: 'warn', late: 'bad', doubt: 'warn' };
 const CLOSEST = 300; // seconds
 const LEAST_DRAG = 4; // pixels, below which it is a click
 const REACH = 10; // pixels around the bar of who is selected, since it may be thin
@@ -88,7 +89,7 @@ function within([from, until], whole) {
 /** Return the instant that a plan was, or is to be, gone on from; null if there is none. */
 function nowOf(entry, request) {
   const { replan } = request.replan?.plan === entry.plan ? request : entry.request;
-  return replan?.freeze_before ?? null;
+  return (entry.replan ?? replan)?.freeze_before ?? null;
 }
 
 function Legend({ isSettled }) {
@@ -140,7 +141,7 @@ function attach(box, canvas, state) {
       canvas.style.height = `${size.height}px`;
     }
     context.setTransform(ratio, 0, 0, ratio, 0, 0);
-    const { selection, hover: hovered, time, dark } = store.get();
+    const { selection, hover: hovered, time, dark, live } = store.get();
     const { index, rows, parts, now } = state.current;
     drawTimeline(context, rows, {
       ...size,
@@ -152,6 +153,7 @@ function attach(box, canvas, state) {
       hover: hovered,
       time,
       dark,
+      news: live?.news,
       focus: focusOf(index, hovered ?? selection),
       colours: coloursOf(box),
     });
@@ -200,6 +202,7 @@ function coloursOf(element) {
     closed: value('surface-0'),
     late: value('bad'),
     accent: value('accent'),
+    ...Object.fromEntries(Object.entries(NEWS).map(([kind, name]) => [kind, value(name)])),
     font: `12px ${style.fontFamily}`,
     smallFont: `11px ${style.fontFamily}`,
   };

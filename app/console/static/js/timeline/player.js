@@ -40,6 +40,7 @@ export function Player({ index }) {
   const playing = useStore((state) => state.playing);
   const time = useStore((state) => state.time);
   const speed = useStore((state) => state.speed);
+  const isLive = useStore((state) => state.live !== null);
   useEffect(() => (playing && index ? run(index) : undefined), [playing, index]);
   const [start, end] = index ? spanOf(index) : [0, 3600];
   return html`<div class="player">
@@ -58,8 +59,8 @@ export function Player({ index }) {
     </select>
     ${
       time !== null &&
-      html`<button type="button" onClick=${replanFromClock}>
-        ${t('player.replan')}</button>
+      html`${!isLive && html`<button type="button" onClick=${replanFromClock}>
+        ${t('player.replan')}</button>`}
       <button type="button" class="quiet"
         onClick=${() => store.set({ time: null, playing: false })}>${t('player.end')}</button>`
     }

@@ -10,6 +10,7 @@ import { TimelinePane } from '../timeline/pane.js';
 import { Dialogs } from './dialogs.js';
 import { goTo } from './go-to.js';
 import { Header } from './header.js';
+import { LiveDay } from './live-day.js';
 import { KeepingNotice, isToBeTold } from './keeping-notice.js';
 import { Panel } from './panel.js';
 import { Rail } from './rail.js';
@@ -23,13 +24,16 @@ export function App() {
   const waits = useStore((state) => isWaiting(state) && shownPlan(state) !== null);
   const language = useStore((state) => state.language);
   // Another language is another page: what views keep for themselves is made anew.
-  return html`<main class="console" key=${language} data-waiting=${waits} ...${useLayout()}>
+  const isWall = useStore((state) => state.live?.isWall);
+  return html`<main class="console" key=${language} data-waiting=${waits} data-wall=${isWall}
+      ...${useLayout()}>
     ${ready ? html`<${Rail} />` : html`<nav class="rail"></nav>`}
     <${Header} />
     <${Notice} />
     ${
       ready
-        ? html`<${Panel} /><${MapPane} /><${TimelinePane} />`
+        ? html`${isWall ? html`<aside class="panel"><${LiveDay} /></aside>` : html`<${Panel} />`}
+          <${MapPane} /><${TimelinePane} />`
         : html`<p class="loading maps">${t('app.loading')}</p>`
     }
     <${Dialogs} />

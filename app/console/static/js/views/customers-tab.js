@@ -124,6 +124,7 @@ function CustomerRow({
   const cell = (field) =>
     errors?.has(field) ? { class: 'invalid', title: errors.get(field) } : {};
   const vehicle = halt?.vehicle;
+  const said = useStore(({ live }) => live?.news.get(key));
   const late = halt?.lateness > 0 && `+${duration(halt.lateness)}`;
   return html`<tr ...${place} data-selected=${selected} data-marked=${marked}
       onMouseEnter=${() => hover(key)}
@@ -146,7 +147,8 @@ function CustomerRow({
       class=${`roomy ${errors?.has('served_by') ? 'invalid' : ''}`}>
       ${t(`customers.by.${customer.served_by ?? 'either'}`)}</td>`}
     ${index && html`<td class=${`number ${late || !halt ? 'late-text' : ''}`}>${
-      halt ? clock(halt.arrival) : t('customers.notServed')}${late && html`<small
+      halt ? clock(halt.arrival) : t('customers.notServed')}${said && html`<small
+        class=${`news ${said.kind}`}>${said.text}</small>`}${late && html`<small
         >${late}</small>`}${halt?.alternative && html`<small>${halt.alternative}</small>`}</td>`}
     </tr>`;
 }

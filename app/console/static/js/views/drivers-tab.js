@@ -1,7 +1,9 @@
 /** Drivers: links for their phones, sheets, and how far they are. */
 
 import { indexOf, settledOf, shownPlan } from '../actions.js';
-import { behindPlan, driverReason, linksByVehicle, standingText } from '../core/dispatches.js';
+import {
+  behindPlan, driverReason, isBrokenDown, linksByVehicle, standingText,
+} from '../core/dispatches.js';
 import { clock, duration } from '../core/format.js';
 import { nameOfVehicle } from '../core/vehicle-labels.js';
 import {
@@ -15,21 +17,27 @@ import {
   sendOut,
 } from '../dispatching.js';
 import { html, useState } from '../libraries.js';
+import { beginDay, openDay, tell } from '../living.js';
 import { useStore } from '../store.js';
 import { printSheets } from './driver-sheets.js';
 import { Badge } from './parts.js';
 import { UntoldOrders } from './untold-orders.js';
+import { LiveDay } from './live-day.js';
 import { t } from '../texts.js';
 
 /** The tab. */
 export function DriversTab() {
   const dispatch = useStore((state) => state.dispatch);
   const entry = useStore(shownPlan);
-  if (dispatch) return html`<${OnTheRoad} dispatch=${dispatch} />`;
+  const isLive = useStore((state) => state.live !== null);
+  const road = dispatch && html`<${OnTheRoad} dispatch=${dispatch} isLive=${isLive} />`;
+  if (isLive) return html`<${LiveDay} />${road}`;
+  if (road) return road;
   if (!entry) return html`<p class="empty">${t('timeline.nothing')}</p><${Others} />`;
   return html`<section class="section"><h3>${t('drivers.send')}</h3>
     <p class="help">${t('drivers.sendHelp', { number: entry.number })}</p>
-    <div class="buttons"><button type="button" class="primary" onClick=${sendOut}>
+    <div class="buttons"><button type="button" class="primary" onClick=${beginDay}>
+      ${t('live.begin')}</button><button type="button" onClick=${sendOut}>
       ${t('drivers.sendOut')}</button></div></section><${Others} />`;
 }
 
@@ -41,12 +49,13 @@ function Others() {
     ${!found && html`<div class="buttons"><button type="button"
       onClick=${lookForDispatches}>${t('drivers.look')}</button></div>`}
     ${found && !found.length && html`<p class="help">${t('drivers.none')}</p>`}
-    ${found?.map(({ id, words }) => html`<div class="buttons" key=${id}><span>${words}</span>
+    ${found?.map(({ id, day, words }) => html`<div class="buttons" key=${id}><span>${words}</span>
       <button type="button" aria-label=${t('drivers.followOf', { words })}
-        onClick=${() => followDispatch(id)}>${t('drivers.follow')}</button></div>`)}</section>`;
+        onClick=${() => (day ? openDay(day) : followDispatch(id))}>${
+          t('drivers.follow')}</button></div>`)}</section>`;
 }
 
-function OnTheRoad({ dispatch }) {
+function OnTheRoad({ dispatch, isLive }) {
   const request = useStore((state) => state.request);
   const untold = useStore((state) => state.untold);
   const entry = useStore(shownPlan);
@@ -57,8 +66,8 @@ function OnTheRoad({ dispatch }) {
   const isGeographic = entry?.request.coordinate_system === 'geographic';
   return html`<section class="section"><h3>${t('drivers.road')}</h3>
       <div class="buttons">
-        <button type="button" class="primary" onClick=${() => goOnFromDrivers(null)}>
-          ${t('drivers.replan')}</button>
+        ${!isLive && html`<button type="button" class="primary"
+          onClick=${() => goOnFromDrivers(null)}>${t('drivers.replan')}</button>`}
         <button type="button" disabled=${!index} onClick=${() =>
           printSheets(index.vehicles, settledOf(entry, request), isGeographic, links)}>
           ${t('drivers.print')}</button>
@@ -69,13 +78,13 @@ function OnTheRoad({ dispatch }) {
       </div>
       ${untold && html`<${UntoldOrders} key=${untold.replan.freeze_before} told=${untold} />`}
       <ul class="links">${[...links.values()].map(
-        (link) => html`<${Link} key=${link.id} link=${link}
+        (link) => html`<${Link} key=${link.id} link=${link} isLive=${isLive}
           vehicle=${vehicles.get(link.vehicle)} />`,
       )}</ul></section>
     <${Failures} links=${[...links.values()]} />`;
 }
 
-function Link({ link, vehicle }) {
+function Link({ link, vehicle, isLive }) {
   const name = nameOfVehicle(link.vehicle);
   const of = { vehicle: name };
   const late = behindPlan(link);
@@ -98,9 +107,9 @@ function Link({ link, vehicle }) {
           aria-label=${t('drivers.qrOf', of)}>${t('drivers.qr')}</button>
         <a href=${link.url} target="_blank" rel="noopener noreferrer"
           aria-label=${t('drivers.openOf', of)}>${t('kept.open')}</a>`}
-      ${link.state === 'open' && html`<button type="button"
-        onClick=${() => goOnFromDrivers(link.vehicle)}
-        aria-label=${t('drivers.brokenOf', of)}>${t('drivers.broken')}</button>
+      ${link.state === 'open' && html`${isLive ? html`<${LiveTellings} link=${link} of=${of} />`
+        : html`<button type="button" onClick=${() => goOnFromDrivers(link.vehicle)}
+        aria-label=${t('drivers.brokenOf', of)}>${t('drivers.broken')}</button>`}
       <button type="button" onClick=${() => revoke(link.id)}
         aria-label=${t('drivers.revokeOf', of)}>${t('drivers.revoke')}</button>`}
       ${link.state !== 'over' && html`<button type="button" onClick=${() => renew(link.id)}
@@ -108,6 +117,23 @@ function Link({ link, vehicle }) {
     </div>
     ${shown && html`<img class="qr" src=${link.qr} alt=${t('drivers.qrOf', of)} />`}
     </div></li>`;
+}
+
+const DELAYS = [10, 20, 30, 60, 120]; // minutes
+
+/** What the desk may tell of a vehicle on the road. */
+function LiveTellings({ link, of }) {
+  const { vehicle } = link;
+  const undone = isBrokenDown(link);
+  return html`<button type="button" aria-label=${undone ? null : t('drivers.brokenOf', of)}
+      onClick=${() => tell({ kind: 'vehicle.broken', vehicle, ...(undone && { undone }) })}>
+      ${undone ? t('live.whole') : t('drivers.broken')}</button>
+    <select aria-label=${t('live.delayOf', of)} value="" onChange=${({ target }) => {
+      tell({ kind: 'vehicle.delayed', vehicle, by: 60 * Number(target.value) });
+      target.value = '';
+    }}><option value="">${t('live.delay')}</option>
+      ${DELAYS.map((minutes) => html`<option key=${minutes} value=${minutes}>
+        +${duration(60 * minutes)}</option>`)}</select>`;
 }
 
 function Failures({ links }) {

@@ -2,11 +2,13 @@
 
 import { isWaiting, openRequest, openTab, shownPlan } from '../actions.js';
 import { clock, duration, km, money } from '../core/format.js';
+import { untoldOf } from '../core/living.js';
 import { fleetSize } from '../core/naming.js';
 import { penaltyOf, trueCost } from '../core/terms.js';
 import { isToBeSent, sendChange } from '../dispatching.js';
 import { isUndoable, undoLast } from '../hands.js';
 import { html, useRef } from '../libraries.js';
+import { tellEdits } from '../living.js';
 import { plan, stop } from '../planning.js';
 import { useStore } from '../store.js';
 import { openPlans, share } from '../keeping/kept.js';
@@ -24,11 +26,12 @@ const SHEET = new URL('../../examples/working-day.xlsx', import.meta.url).href;
 /** The bar at the top. */
 export function Header() {
   const ready = useStore((state) => state.request !== null);
+  const isLive = useStore((state) => state.live !== null);
   return html`<header class="head">
     ${ready && html`<${ProblemName} /><${Opener} /><${Undo} />`}
     <${Result} />
     ${ready && html`<${WarningsChip} /><${Share} /><${SendChange} />`}
-    <${PlanButton} />
+    ${isLive ? html`<${LiveState} />` : html`<${PlanButton} />`}
   </header>`;
 }
 
@@ -56,6 +59,17 @@ function SendChange() {
   return isOther && html`<button type="button" class="primary" id="send-change"
     aria-label=${t('drivers.sendChange')} onClick=${send}><${Icon} name="send" />
     <span class="word">${t('drivers.sendChange')}</span></button>`;
+}
+
+/** What time it is on a day that goes on, and what of it isn't told yet. */
+function LiveState() {
+  const { day, base } = useStore((state) => state.live);
+  const request = useStore((state) => state.request);
+  const count = base ? untoldOf(base, request).length : 0;
+  return html`<span class="live-clock" role="timer">${clock(day.now)}</span>
+    ${day.is_planned ? null : html`<span class="stale" role="status">${t('live.planning')}</span>`}
+    ${count > 0 && html`<button type="button" class="primary" id="tell-edits"
+      onClick=${tellEdits}><${Icon} name="send" /> ${t('live.tell', { count })}</button>`}`;
 }
 
 /** Plans; while it does, stops. */
@@ -109,6 +123,7 @@ const MOST_UNTOLD = 5;
 function Result() {
   const entry = useStore(shownPlan);
   const run = useStore((state) => state.run);
+  const isLive = useStore((state) => state.live !== null);
   const stale = useStore((state) => shownPlan(state)?.request !== state.request);
   const goesOn = useStore((state) => Boolean(state.request?.replan));
   const waits = useStore(isWaiting) && run.state !== 'stopping';
@@ -135,6 +150,7 @@ function Result() {
     ${
       entry &&
       stale &&
+      !isLive &&
       run.state === 'idle' &&
       html`<span class="stale"><span class="long">${t('header.changedSince')}</span><span
         class="short">${t('header.changed')}</span>

@@ -59,5 +59,7 @@ function useCounts() {
     dispatch?.reply.links.filter(isInTrouble).length ?? 0);
   const counts = Object.fromEntries(Object.keys(ROOMS).map((room) => [
     room, errors.filter(({ keys }) => roomOf(tabOf(keys)) === room).length]));
-  return { ...counts, orders: counts.orders + out, drivers: inTrouble };
+  const asked = useStore(({ live }) =>
+    [...(live?.news.values() ?? [])].filter(({ kind }) => kind === 'doubt').length);
+  return { ...counts, orders: counts.orders + out, drivers: inTrouble + asked };
 }

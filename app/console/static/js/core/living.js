@@ -1,0 +1,113 @@
+/** A day as it happens: what changed a moment ago, who is late, who waits, what isn't told yet. */
+
+import { clock, duration } from './format.js';
+import { saidOf } from './said.js';
+import { nameOfVehicle } from './vehicle-labels.js';
+import { t } from '../texts.js';
+
+const LEAST = 60; // seconds that are worth a word
+const PROMISED = 300; // seconds behind what was told that are
+const SLOT = 7200; // seconds
+const MOST_SLOTS = 6;
+
+/**
+ * Return what changed between two plans, by key of the customer: `{kind, text}`.
+ *
+ * @param before index of the plan that was seen last, null if it is the first
+ */
+export function changesOf(before, index) {
+  const halts = [...index.halts].filter(([key]) => key[0] === 'c');
+  const changes = halts.flatMap(([key, halt]) => {
+    const change = before && changeOf(before.halts.get(key), halt);
+    return change ? [[key, change]] : [];
+  });
+  const out = index.plan.unassigned.map(({ id }) => `c:${id}`)
+    .filter((key) => before && (before.halts.has(key) || !before.customers.has(key.slice(2))));
+  return new Map([...changes, ...out.map((key) => [key, { kind: 'out', text: t('live.out') }])]);
+}
+
+function changeOf(was, { vehicle, arrival }) {
+  if (!was) return { kind: 'new', text: t('live.new') };
+  if (was.vehicle.name !== vehicle.name) {
+    return { kind: 'moved', text: `\u2192 ${nameOfVehicle(vehicle.name)}` };
+  }
+  const by = arrival - was.arrival;
+  if (Math.abs(by) < LEAST) return null;
+  return { kind: 'later', text: `${by < 0 ? '\u2212' : '+'}${duration(Math.abs(by))}` };
+}
+
+/** Return who comes late, the latest first: `{id, key, vehicle, by}`, `by` in seconds. */
+export function lateOf({ orders }, index) {
+  return orders.filter(({ state }) => state === 'planned').flatMap((order) => {
+    const key = `c:${order.id}`;
+    const behind = order.told === null ? 0 : order.arrival - order.told;
+    const by = Math.max(index?.halts.get(key)?.lateness ?? 0, behind < PROMISED ? 0 : behind);
+    return by < LEAST ? [] : [{ ...order, key, by }];
+  }).sort((one, other) => other.by - one.by);
+}
+
+/** Return who waits, and why: those whom the plan leaves out, and those it hasn't seen yet. */
+export function waitingOf({ orders }, plan) {
+  const left = new Map(plan?.unassigned.map(({ id, reasons }) => [id, reasons?.[0]]));
+  return orders.filter(({ state }) => state === 'waiting' || state === 'left_out')
+    .map(({ id }) => ({ id, key: `c:${id}`, why: left.has(id)
+      ? (left.get(id) && saidOf(left.get(id))) || t('live.out') : t('live.waits') }));
+}
+
+/** Return orders of which nobody told, by vehicle. */
+export function doubtsOf({ orders }) {
+  const doubts = orders.filter(({ state }) => state === 'doubtful');
+  return [...new Set(doubts.map(({ vehicle }) => vehicle))]
+    .map((vehicle) => [vehicle, doubts.filter((order) => order.vehicle === vehicle)]);
+}
+
+/** Return what stands beside customers on the map and in lists, by key: `{kind, text}`. */
+export function newsOf(day, index, changes) {
+  const late = lateOf(day, index).map(({ key, by }) => [key, {
+    kind: 'late', text: t('live.late', { by: duration(by) }) }]);
+  const doubts = day.orders.filter(({ state }) => state === 'doubtful')
+    .map(({ id }) => [`c:${id}`, { kind: 'doubt', text: '?' }]);
+  return new Map([...changes, ...late, ...doubts]);
+}
+
+/** Return the events that make one problem's orders another's: what isn't told yet. */
+export function untoldOf(base, request) {
+  const [was, now] = [base, request].map(({ customers }) =>
+    new Map(customers.map((customer) => [customer.id, customer])));
+  const isOther = (customer) => was.get(customer.id) !== customer
+    && JSON.stringify(was.get(customer.id)) !== JSON.stringify(customer);
+  return [
+    ...request.customers.filter(isOther).map((customer) => ({
+      kind: was.has(customer.id) ? 'order.changed' : 'order.placed', customer })),
+    ...base.customers.filter(({ id }) => !now.has(id))
+      .map(({ id }) => ({ kind: 'order.cancelled', order: id })),
+  ];
+}
+
+/** Return a problem with what isn't told yet. */
+export function withUntold(base, events) {
+  const customers = new Map(base.customers.map((customer) => [customer.id, customer]));
+  for (const { customer, order } of events) {
+    if (customer) customers.set(customer.id, customer);
+    else customers.delete(order);
+  }
+  return events.length ? { ...base, customers: [...customers.values()] } : base;
+}
+
+/** Return slots to choose from: the one that was asked for, else those ahead today. */
+export function slotsFor({ fleet }, { time_window: asked }, now, until) {
+  if (asked) return [asked];
+  const ends = fleet.map(({ shift }) => shift?.latest).filter(Boolean);
+  const end = Math.max(until, ...ends);
+  const first = Math.ceil(now / 3600) * 3600;
+  const count = Math.min(Math.ceil(Math.max(end - first, 1) / SLOT), MOST_SLOTS);
+  const slots = Array.from({ length: count }, (_, at) => ({
+    earliest: first + at * SLOT, latest: first + (at + 1) * SLOT }));
+  return [{ earliest: now }, ...slots];
+}
+
+/** Return a slot in words. */
+export function slotInWords({ earliest, latest }) {
+  return latest === null || latest === undefined ? t('live.anyTime')
+    : t('live.slot', { from: clock(earliest), until: clock(latest) });
+}

@@ -1,0 +1,150 @@
+/** The day as it happens: begun, followed as the service tells it, and told what the desk knows. */
+
+import { indexOf, openRequest, shownPlan, showFailure } from './actions.js';
+import * as api from './api.js';
+import { dayOf } from './core/dispatches.js';
+import { changesOf, newsOf, untoldOf, withUntold } from './core/living.js';
+import { numbersOf } from './core/plan.js';
+import { inSeconds } from './core/times.js';
+import { followDispatch } from './dispatching.js';
+import { latestOf } from './planning.js';
+import { store } from './store.js';
+import { t } from './texts.js';
+
+const NUMBER = 1; // of the day's plan among plans
+const LOOK_MS = 5000;
+const STEP = 60; // seconds after which more of a plan has happened
+const FRESH_MS = 300_000; // for which a screen on the wall shows what changed
+
+let following = new AbortController();
+
+/** Return the day that the address opens, `#day=monday`, and whether it is for a wall. */
+export function dayInAddress() {
+  const asked = new URLSearchParams(location.hash.slice(1));
+  return asked.get('day') && { id: asked.get('day'), isWall: asked.has('wall') };
+}
+
+/** Begin a day with the problem that is open, and the plan that is looked at. */
+export function beginDay() {
+  return attempt(async () => {
+    const entry = shownPlan(store.get());
+    const { request } = store.get();
+    const options = { ...request.options, times: 'seconds', geometry: true };
+    const replan = entry && { plan: entry.plan, freeze_before: 0 };
+    const problem = { ...request, ...dayOf(request), options, replan };
+    await openDay((await api.postDay({ problem })).id);
+  });
+}
+
+/** Open a day and follow it until something else is opened. */
+export async function openDay(id, isWall = false) {
+  following.abort();
+  following = new AbortController();
+  const { signal } = following;
+  const day = await api.getDay(id);
+  const live = { id: day.id, isWall, day, base: null, since: null, changedAt: 0,
+    changes: new Map(), news: new Map(), told: [], quote: null };
+  const opened = { name: day.id, isSafe: true, live, tab: 'drivers' };
+  openRequest(await api.getDay(id, '/problem'), opened);
+  history.replaceState(null, '', `#day=${encodeURIComponent(day.id)}${isWall ? '&wall' : ''}`);
+  await refresh();
+  followDispatch(day.dispatch);
+  const timer = setInterval(() => (isFollowed(id) ? refresh() : following.abort()), LOOK_MS);
+  signal.addEventListener('abort', () => clearInterval(timer));
+  api.followDay(day.id, hear, signal).catch(showFailure);
+}
+
+function isFollowed(id) {
+  return store.get().live?.id === id && !following.signal.aborted;
+}
+
+/** Note what people told; whatever it was, the day stands otherwise now. */
+function hear(event) {
+  const { live } = store.get();
+  if (live && KNOWN.has(event.kind)) store.set({ live: { ...live, told: [...live.told, event] } });
+  if (live) refresh();
+}
+
+/** Kinds of events that are listed as they come. */
+const KNOWN = new Set(['vehicle.failed', 'vehicle.broken', 'plan.seen', 'drone.lost']);
+
+/** Look how the day stands, and take its plan if that is another. */
+const refresh = latestOf(async () => {
+  const { live } = store.get();
+  if (!live) return;
+  const day = await api.getDay(live.id);
+  const isOther = !live.base || day.revision !== live.day.revision;
+  const [problem, made] = isOther && day.plan_number ? await Promise.all([
+    api.getDay(live.id, '/problem'), api.getDay(live.id, '/plan?times=seconds')]) : [];
+  if (isFollowed(live.id)) store.set((state) => shownAs(state, day, problem, made?.plan));
+});
+
+/** Return what changes of the state where a day stands otherwise. */
+function shownAs(state, day, problem, plan) {
+  const { live, schemas, request, plans, time } = state;
+  const former = plans.find(({ number }) => number === NUMBER);
+  const base = problem ? inSeconds(schemas, problem) : live.base;
+  const untold = live.base ? untoldOf(live.base, request) : [];
+  const patch = { time: time === null || time === live.day.now ? day.now : time };
+  const entry = { ...former, request: base, replan: { freeze_before: day.now } };
+  const isStale = live.isWall && live.changes.size && Date.now() - live.changedAt > FRESH_MS;
+  if (!plan && !isStale && day.now - former?.replan.freeze_before < STEP) {
+    return { ...patch, live: { ...live, day } };
+  }
+  if (plan) {
+    // Vehicles keep their numbers, and so their colours.
+    const numbers = numbersOf({ ...base, replan: former && { plan: former.plan } }, plan);
+    Object.assign(entry, { number: NUMBER, name: t('live.plan'), plan,
+      numbers: Object.fromEntries(numbers) });
+    Object.assign(patch, { shown: state.shown ?? NUMBER, request: withUntold(base, untold),
+      past: untold.length ? [base] : [], ahead: [] });
+  }
+  if (!entry.plan) return { ...patch, live: { ...live, day, base } };
+  const since = (!isStale && live.since) || (former ?? entry);
+  const index = indexOf(entry);
+  const changes = plan || isStale ? changesOf(indexOf(since), index) : live.changes;
+  const news = newsOf(day, index, changes);
+  return {
+    ...patch,
+    plans: [entry, ...plans.filter(({ number }) => number !== NUMBER)],
+    live: { ...live, day, base, since, changes, news: isSame(news, live.news) ? live.news : news,
+      changedAt: plan ? Date.now() : live.changedAt },
+  };
+}
+
+function isSame(one, other) {
+  return JSON.stringify([...one]) === JSON.stringify([...other]);
+}
+
+/** Say that what changed was seen: from now on, what changes next is shown. */
+export function seeChanges() {
+  store.set(({ live, plans }) => {
+    const since = plans.find(({ number }) => number === NUMBER);
+    const news = newsOf(live.day, indexOf(since), new Map());
+    return { live: { ...live, since, changes: new Map(), news } };
+  });
+}
+
+/** Tell the day what happened, each at its `at` or now; tell whether that was taken. */
+export function tell(...events) {
+  const { id, day } = store.get().live;
+  return attempt(async () => {
+    await api.postToDay(id, 'events', events.map((event) => ({
+      event_id: crypto.randomUUID(), at: day.now, ...event })));
+    refresh();
+  });
+}
+
+/** Tell the orders that were added, changed and taken out here. */
+export function tellEdits() {
+  const { live, request } = store.get();
+  return tell(...untoldOf(live.base, request));
+}
+
+async function attempt(work) {
+  try {
+    await work();
+  } catch (error) {
+    showFailure(error);
+  }
+}

@@ -1,0 +1,61 @@
+import assert from 'node:assert/strict';
+import test from 'node:test';
+import {
+  changesOf, doubtsOf, lateOf, slotsFor, untoldOf, waitingOf, withUntold,
+} from '../../../app/console/static/js/core/living.js';
+
+const customer = (id, more = {}) => ({ id, location: [0, 0], demand: [1], ...more });
+const BASE = { customers: [customer('A'), customer('B')], fleet: [{ shift: { latest: 43200 } }] };
+
+function indexed(served, out = []) {
+  return {
+    plan: { unassigned: out.map((id) => ({ id, reasons: [] })) },
+    customers: new Map([...Object.keys(served), ...out].map((id) => [id, {}])),
+    halts: new Map(Object.entries(served).map(([id, [name, arrival, lateness = 0]]) =>
+      [`c:${id}`, { vehicle: { name }, arrival, lateness }])),
+  };
+}
+
+test('what changed a moment ago is told by customer', () => {
+  const before = indexed({ A: ['van-1', 100], B: ['van-1', 200], C: ['van-2', 300], D: ['v', 1] });
+  const after = indexed({ A: ['van-1', 130], B: ['van-2', 200], C: ['van-2', 900], N: ['v', 5] },
+    ['D']);
+  const kinds = [...changesOf(before, after)].map(([key, { kind, text }]) => [key, kind, text]);
+  assert.deepEqual(kinds, [
+    ['c:B', 'moved', '\u2192 van-2'], ['c:C', 'later', '+10 min'], ['c:N', 'new', 'new'],
+    ['c:D', 'out', 'left out'],
+  ]);
+  assert.equal(changesOf(null, after).size, 0);
+});
+
+test('who is late, waits or is in doubt is told by how the day stands', () => {
+  const order = (id, state, more) => ({ id, state, vehicle: 'van-1', arrival: 900, told: 900,
+    ...more });
+  const day = { orders: [
+    order('A', 'planned'), order('B', 'planned', { told: 200 }), order('C', 'planned'),
+    order('D', 'waiting'), order('E', 'doubtful', { told: 0 }), order('F', 'doubtful'),
+  ] };
+  const index = indexed({ A: ['van-1', 900], C: ['van-1', 900, 3600] });
+  assert.deepEqual(lateOf(day, index).map(({ id, by }) => [id, by]), [['C', 3600], ['B', 700]]);
+  assert.deepEqual(waitingOf(day, index.plan).map(({ id }) => id), ['D']);
+  assert.deepEqual(doubtsOf(day).map(([vehicle, orders]) => [vehicle, orders.length]),
+    [['van-1', 2]]);
+});
+
+test('what is edited and not told yet stays where others tell something', () => {
+  const edited = { ...BASE, customers: [customer('A', { demand: [2] }), customer('N')] };
+  const events = untoldOf(BASE, edited);
+  assert.deepEqual(events.map(({ kind, customer: stated, order }) => [kind, stated?.id ?? order]), [
+    ['order.changed', 'A'], ['order.placed', 'N'], ['order.cancelled', 'B']]);
+  const others = { ...BASE, customers: [...BASE.customers, customer('Z')] };
+  assert.deepEqual(withUntold(others, events).customers.map(({ id }) => id), ['A', 'Z', 'N']);
+  assert.deepEqual(untoldOf(BASE, { ...BASE, customers: BASE.customers.map((each) => ({ ...each }))
+  }), []);
+});
+
+test('slots are those ahead, unless one was asked for', () => {
+  assert.deepEqual(slotsFor(BASE, { time_window: { earliest: 1, latest: 2 } }, 0, 0),
+    [{ earliest: 1, latest: 2 }]);
+  assert.deepEqual(slotsFor(BASE, {}, 35000, 40000), [{ earliest: 35000 },
+    { earliest: 36000, latest: 43200 }]);
+});

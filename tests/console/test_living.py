@@ -1,0 +1,113 @@
+"""A day as it happens, in the console."""
+
+import re
+from collections.abc import Callable
+
+import httpx
+import pytest
+from playwright.sync_api import Page, expect
+
+from tests.app.records.days.living import PROBLEM, begun, order, standing, told
+from tests.console.test_everyone import findings
+from tests.console.steps import open_tab, place_of, state
+from tests.conftest import PATIENCE
+
+pytestmark = pytest.mark.slow
+
+
+@pytest.fixture
+def client(service: str) -> httpx.Client:
+    """Return who tells the service of days."""
+    return httpx.Client(base_url=service, trust_env=False, timeout=PATIENCE)
+
+
+def test_day_is_begun_with_the_plan_and_opened_again(page: Page) -> None:
+    open_tab(page, "drivers")
+    served = state(page, "state.plans.0.plan.summary.served")
+    page.get_by_role("button", name="Begin the day").click()
+    expect(page.get_by_role("timer")).to_be_visible()
+    expect(page.locator(".links li").first).to_be_visible()
+    assert "#day=" in page.url
+    assert state(page, "state.plans.0.plan.summary.served") == served
+    page.reload()
+    expect(page.locator(".links li").first).to_be_visible()
+    assert findings(page, ".panel") == []
+
+
+def test_what_changes_is_shown_and_orders_in_doubt_are_asked(
+        client: httpx.Client, service: str, open_page: Callable[..., Page]) -> None:
+    day = begun(client)
+    page = open_page(f"{service}/#day={day}")
+    expect(page.get_by_role("timer")).to_be_visible()
+    expect(page.locator("[data-list=changed]")).to_have_count(0)
+    told(client, day, order("G", 1, 1), at=10)
+    expect(page.locator("[data-list=changed]")).to_contain_text("G")
+    expect(page.locator(".map-label.news.new")).to_have_text("new")
+    page.get_by_role("button", name="Seen").click()
+    expect(page.locator(".map-label.news:is(.new, .moved, .later)")).to_have_count(0)
+    told(client, day, {"kind": "clock", "at": 400.0})
+    doubts = page.locator("[data-list=doubts]")
+    asked = {each.id for each in standing(client, day).orders if each.state == "doubtful"}
+    assert asked
+    for name in sorted(asked):
+        doubts.get_by_role("button", name=f"{name} was served", exact=True).click()
+    expect(doubts).to_have_count(0)
+    states = {each.id: each.state for each in standing(client, day).orders}
+    assert {states[name] for name in asked} == {"served"}
+    assert findings(page, ".panel") == []
+
+
+def test_order_is_placed_by_a_click_on_the_map_and_a_slot(
+        client: httpx.Client, service: str, open_page: Callable[..., Page]) -> None:
+    day = begun(client, {**PROBLEM, "fleet": [{**PROBLEM["fleet"][0], "shift": {
+        "earliest": 0, "latest": 20_000}}]})
+    page = open_page(f"{service}/#day={day}")
+    page.get_by_text("New order").click()
+    page.get_by_role("button", name="Show it on the map").click()
+    x, y = place_of(page, "c:A")
+    page.mouse.click(x + 30, y + 40)
+    page.get_by_role("button", name="Find the best vans").click()
+    slots = page.locator(".quote li")
+    expect(slots.first).to_contain_text("van-")
+    assert findings(page, ".panel") == []
+    page.locator(".quote button.primary").click()
+    expect(page.locator(".map-label.news.new")).to_have_count(1)
+    assert len(standing(client, day).orders) == len(PROBLEM["customers"]) + 1
+
+
+def test_what_is_not_told_yet_is_undone_and_told_with_one_click(
+        client: httpx.Client, service: str, open_page: Callable[..., Page]) -> None:
+    day = begun(client)
+    page = open_page(f"{service}/#day={day}")
+    expect(page.get_by_role("timer")).to_be_visible()
+    cancel(page, "F")
+    tell = page.locator("#tell-edits")
+    expect(tell).to_have_text(re.compile("Tell 1 change"))
+    page.keyboard.press("Control+z")
+    expect(tell).to_have_count(0)
+    cancel(page, "F")
+    told(client, day, order("G", 1, 1), at=10)
+    expect(page.locator(".map-label.news.new")).to_have_count(1)
+    tell.click()
+    expect(tell).to_have_count(0)
+    assert {each.id for each in standing(client, day).orders} == set("ABCDEG")
+
+
+def test_wall_shows_the_day_without_a_panel_to_work_in(
+        client: httpx.Client, service: str, open_page: Callable[..., Page]) -> None:
+    day = begun(client)
+    page = open_page(f"{service}/#day={day}&wall")
+    expect(page.get_by_role("timer")).to_be_visible()
+    expect(page.locator(".rail")).to_be_hidden()
+    told(client, day, order("G", 1, 1), at=10)
+    expect(page.locator("[data-list=changed]")).to_contain_text("G")
+    assert page.locator(".panel button:not(.link)").count() == 0
+    size = page.get_by_role("timer").evaluate("each => parseFloat(getComputedStyle(each).fontSize)")
+    assert size >= 30
+
+
+def cancel(page: Page, name: str) -> None:
+    """Take an order out, which isn't told yet."""
+    open_tab(page, "customers")
+    page.get_by_role("button", name=name, exact=True).first.click()
+    page.get_by_role("button", name="Remove this customer").last.click()
