@@ -20,6 +20,7 @@ from app.plans.permits import Permits
 from app.plans.remedies import remedy_reply
 from app.plans.replan_replies import on_the_wire, replan_reply
 from app.plans.replies import Data, plan_reply, route_reply
+from app.plans.risking import RiskSearch, further
 from app.plans.rulebook import laws_named, rules_named
 from app.plans.steps import step
 from app.plans.storms import Storms
@@ -89,6 +90,7 @@ class Task:
     laws: list[Data] = field(default_factory=list)  # that drivers keep
     doubtful: Sequence[str] = ()  # customers of whom nobody told whether they were served
     risk: LatenessRisk | None = None
+    terms: Terms | None = None  # of the plan to go on from
 
     def plan(self, planner: Planner, options: PlanOptions, received_at: float | None = None,
              listener: Listener = ALONE, start: Solution | None = None) -> PlanResult:
@@ -97,6 +99,18 @@ class Task:
         `start` may be any earlier result of the same task.
         """
         options = self._with_time_for_geometry(options)
+        began = time.perf_counter() if received_at is None else received_at
+        plan = partial(self._plan, planner, began, start)
+        risk, searches = self.risk, 0 not in (options.time_limit, options.search_iterations)
+        if risk is None or not risk.cost_per_hour or not searches or self.far is not None:
+            return plan(options, listener)
+        search = RiskSearch(self.problem, self.judged_problem, risk.spread, risk.cost_per_hour,
+                            self.setting.past.now, self.check)
+        return search.find(options, listener, plan, further(planner, began, self.terms))
+
+    def _plan(self, planner: Planner, received_at: float, start: Solution | None,
+              options: PlanOptions, listener: Listener) -> PlanResult:
+        """Plan by the costs alone."""
         if self.replanning is not None:
             return self.replanning.plan(planner, options, received_at, listener, start)
         if not self.problem.customers:
@@ -283,7 +297,7 @@ def task_of(request: PlanRequest, preparing: Preparing = UNHURRIED,
     try:
         return Task(problem, Replanning(problem, terms), *beside, places=places, permits=permits,
                     closures=closures, storms=storms, rules=rules, laws=laws,
-                    doubtful=replan.doubtful, risk=risk)
+                    doubtful=replan.doubtful, risk=risk, terms=terms)
     except SettledPartError as error:
         raise InvalidRequestError([
             InputError(code="SETTLED_PART",

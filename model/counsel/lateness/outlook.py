@@ -1,6 +1,6 @@
 """What is to be expected of a plan's promises: chances of being late, and when who comes."""
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -56,12 +56,22 @@ def outlook(problem: Problem, route: Route, spread: Spread, now: int = 0,
     return [of_trip(trip) for trip in trips]
 
 
+def expectations(problem: Problem, plan: Solution, spread: Spread,
+                 now: int = 0) -> Iterator[tuple[int, Expectation]]:
+    """Yield what is to be expected of a plan, by the nodes of its customers."""
+    for number, route in enumerate(plan.routes):
+        trips = outlook(problem, route, spread, now, number)
+        for trip, told in zip(route.trips, trips, strict=True):
+            stops = [stop for stop in trip.stops if stop.node >= problem.num_depots]
+            yield from zip([stop.node for stop in stops], told.stops, strict=True)
+            for sortie, visits in zip(trip.sorties, told.sorties, strict=True):
+                yield from zip(sortie.nodes, visits, strict=True)
+
+
 def late_hours(problem: Problem, plan: Solution, spread: Spread, now: int = 0) -> float:
     """Return the hours of lateness to be expected of a plan, over all customers."""
-    return sum([each.expected for number, route in enumerate(plan.routes)
-                for trip in outlook(problem, route, spread, now, number)
-                for each in (*trip.stops, *(visit for visits in trip.sorties for visit in visits))
-                ]) / MS_PER_HOUR
+    return sum([each.expected for _, each in expectations(problem, plan, spread, now)]
+               ) / MS_PER_HOUR
 
 
 def _told(problem: Problem, met: Sequence[Encounter]) -> list[Expectation]:

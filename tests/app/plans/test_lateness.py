@@ -88,3 +88,48 @@ def test_what_is_no_spread_is_refused(service: httpx.Client, promised: Request,
                                       wrong: Request) -> None:
     promised["options"]["lateness_risk"] = wrong
     assert service.post("/plan", json=promised).status_code == 422
+
+
+@pytest.fixture
+def passed(smallest: Request) -> Request:
+    """Return two customers on one way that ends with the last of them.
+
+    Whom the van passes first it serves first, and then may be late.
+    """
+    smallest["customers"] = [
+        {"id": "near", "location": [0, 5], "demand": [1], "service_duration": 240},
+        {"id": "far", "location": [0, 10], "demand": [1], "time_window": {"latest": 900}}]
+    smallest["fleet"][0] |= {"id": "van", "count": 1, "capacity": [5], "speed_kmh": 60,
+                             "end": "open", "costs": {"per_km": 1}}
+    smallest["options"] = {"time_limit": 60, "search_iterations": 3000}
+    return smallest
+
+
+def test_price_buys_room_where_it_costs_least(service: httpx.Client, passed: Request) -> None:
+    cheap = planned(service, passed)
+    passed["options"]["lateness_risk"] = RISK | {"cost_per_expected_late_hour": 0}
+    told = planned(service, passed)
+    passed["options"]["lateness_risk"] = RISK | {"cost_per_expected_late_hour": 2000}
+    safe = planned(service, passed)
+
+    assert told["cost"] == cheap["cost"] | {"lateness_risk": 0.0}
+    assert [stop["id"] for stop in told["routes"][0]["trips"][0]["stops"]] == [
+        "hub", "near", "far"]
+    assert [stop["id"] for stop in safe["routes"][0]["trips"][0]["stops"]] == [
+        "hub", "far", "near"]
+    assert (told["cost"]["distance"], safe["cost"]["distance"]) == (10, 15)
+    assert 0.2 < halts(told)["far"]["chance"] < 0.5
+    assert halts(safe)["far"]["chance"] < 0.05
+    reply = service.post("/check", json={"problem": passed, "plan": safe}).json()
+    assert reply["feasible"], reply["violations"]
+    assert reply["cost"] == safe["cost"]
+
+
+def test_price_counts_on_a_plan_gone_on_from(service: httpx.Client, passed: Request) -> None:
+    plan = planned(service, passed)
+    passed["options"]["lateness_risk"] = RISK | {"cost_per_expected_late_hour": 2000}
+    passed["replan"] = {"plan": plan}
+    safe = planned(service, passed)
+
+    assert [stop["id"] for stop in safe["routes"][0]["trips"][0]["stops"]] == [
+        "hub", "far", "near"]
