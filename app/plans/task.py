@@ -25,6 +25,7 @@ from app.plans.rulebook import laws_named, rules_named
 from app.plans.steps import step
 from app.plans.storms import Storms
 from app.plans.telling import IN_SECONDS, Telling
+from app.plans.waves import Waves
 from app.requests.conversion.ground import Ground
 from app.requests.conversion.leg_origins import LegOrigin
 from app.requests.conversion.locating import Located, located
@@ -91,6 +92,7 @@ class Task:
     doubtful: Sequence[str] = ()  # customers of whom nobody told whether they were served
     risk: LatenessRisk | None = None
     terms: Terms | None = None  # of the plan to go on from
+    waves: Waves | None = None  # where it is decided who waits
 
     def plan(self, planner: Planner, options: PlanOptions, received_at: float | None = None,
              listener: Listener = ALONE, start: Solution | None = None) -> PlanResult:
@@ -100,6 +102,8 @@ class Task:
         """
         options = self._with_time_for_geometry(options)
         began = time.perf_counter() if received_at is None else received_at
+        if self.waves is not None and self.problem.customers:
+            return self.waves.plan(self.problem, self.replanning, planner, options, began, listener)
         plan = partial(self._plan, planner, began, start)
         risk, searches = self.risk, 0 not in (options.time_limit, options.search_iterations)
         if risk is None or not risk.cost_per_hour or not searches or self.far is not None:
@@ -215,6 +219,9 @@ class Task:
         if self.replanning is not None:
             reply["replan"] = replan_reply(self.problem, self.replanning, result.solution,
                                            self.doubtful)
+        if self.waves is not None:
+            reply["outlook"] = self.waves.replies(self.problem, result.solution,
+                                                  self.setting.past.now)
         self.telling.tell(PlanReply, reply)
         return {**self.telling.stated, **reply}
 
@@ -284,20 +291,18 @@ def task_of(request: PlanRequest, preparing: Preparing = UNHURRIED,
     replan, permits, closures = request.replan, Permits.of(request), Closures(placed, ground)
     risk = LatenessRisk.of(request.options.lateness_risk)
     rules, laws, storms = rules_named(request), laws_named(request), Storms.of(request)
+    task = partial(Task, problem, places=places, permits=permits, closures=closures, storms=storms,
+                   rules=rules, laws=laws, risk=risk, waves=Waves.of(placed, preparing, roads))
     if replan is None:
         estimates = travels.estimates()
-        far = None if estimates is None else FarPlans(problem, estimates)
-        return Task(problem, None, *beside, far, places, permits, closures, storms, rules,
-                    laws, risk=risk)
+        return task(None, *beside, None if estimates is None else FarPlans(problem, estimates))
     replan, places_stated = with_what_is_there(replan, request.fleet)
     terms = _terms(replan, request.options.change_costs, problem)
     going_on = replace(preparing, work="Legs and the plan to go on from",
                        advice="send fewer customers or vehicles at once")
     going_on.expect(replanning_seconds(problem, terms.plan))
     try:
-        return Task(problem, Replanning(problem, terms), *beside, places=places, permits=permits,
-                    closures=closures, storms=storms, rules=rules, laws=laws,
-                    doubtful=replan.doubtful, risk=risk, terms=terms)
+        return task(Replanning(problem, terms), *beside, doubtful=replan.doubtful, terms=terms)
     except SettledPartError as error:
         raise InvalidRequestError([
             InputError(code="SETTLED_PART",

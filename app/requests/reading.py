@@ -9,6 +9,7 @@ from pydantic_core import ErrorDetails, from_json, to_json
 from app.requests.bounds import UNBOUNDED, Bounds, bound_errors, leg_errors
 from app.requests.draft import Draft
 from app.requests.ends import added_names, stated_errors
+from app.requests.forecast_validation import forecast_errors
 from app.requests.refusal import MAX_COUNTED_ERRORS, MAX_SEARCHED_BYTES, require_readable
 from app.requests.validation import semantic_errors
 from app.schemas.airspace import AirspaceInput
@@ -69,7 +70,7 @@ def request_errors(request: PlanRequest, policies: Collection[str] | None,
     """Return every error of a request that fits the schema."""
     draft = _whole_draft(request)
     errors = [*semantic_errors(draft, policies), *bound_errors(draft, bounds)]
-    errors = errors or list(leg_errors(request, bounds))
+    errors = errors or [*leg_errors(request, bounds), *forecast_errors(request, draft)]
     return stated_errors(request, errors) if errors and draft.added else errors
 
 

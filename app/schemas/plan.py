@@ -236,6 +236,7 @@ class PlanInput(_Plan):
     airspace: Details = None
     rules: list[dict[str, Any]] | None = Field(None, description=NOT_READ)
     driving_rules: list[dict[str, Any]] | None = Field(None, description=NOT_READ)
+    outlook: list[dict[str, Any]] | None = Field(None, description=NOT_READ)
     replan: Details = None
     plan_start: PlanStart | None = Field(
         None,

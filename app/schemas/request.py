@@ -18,6 +18,7 @@ from app.schemas.fields import (
     Input, Instant, LocationIndex, Money, Name, PlaceLocation, Rounding, Table,
 )
 from app.schemas.lateness import LatenessRiskInput
+from app.schemas.forecast import ComingInput
 from app.schemas.launch_site import HoursInput, LaunchSiteInput
 from app.schemas.limits import (
     DEFAULT_POLICY, MAX_CUSTOMERS, MAX_NUM_SAMPLES, MAX_THREADS, MAX_TIME_LIMIT, MAX_VEHICLES,
@@ -334,6 +335,9 @@ class PlanRequest(Input):
     replan: ReplanInput | None = Field(
         None, description="A plan to go on from. Null: plan from nothing."
     )
+    forecast: ComingInput | None = Field(
+        None, description="What may come: the reply's `outlook` then says who leaves now, and who "
+        "waits and why. Not with shipments, relations, alternatives or fairness.")
     options: OptionsInput = Field(OptionsInput(), description="How to plan.")
 
     @model_validator(mode="after")

@@ -9,6 +9,7 @@ from typing import Literal
 from pydantic import BaseModel, ConfigDict, Field
 
 from app.schemas.hindrances import AirspaceReply
+from app.schemas.forecast import OutlookReply
 from app.schemas.hub import ChargingReply, HubReply
 from app.schemas.lateness import (
     LATENESS_TEXT, RISK_TEXT, LatenessReply, LatenessRiskReply,
@@ -354,6 +355,9 @@ class PlanReply(_Reply):
     replan: ReplanReply | None = Field(
         None, description="What became of the plan given. Left out if none was."
     )
+    outlook: list[OutlookReply] | None = Field(
+        None, description="Who leaves now and who waits, of all who aren't aboard yet. Left out "
+        "without a `forecast`.")
 
 
 class LivenessReply(_Reply):

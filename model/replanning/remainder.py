@@ -44,6 +44,13 @@ class Remainder:
         first = self.problem.num_depots
         return {node: index for index, node in enumerate(self.nodes[first:], first)}
 
+    def holding(self, held: Mapping[int, int]) -> "Remainder":
+        """Return what is left where some of the whole's customers come no sooner to the depot."""
+        if not held:
+            return self
+        return replace(self, problem=held_back(self.problem, {
+            node: held[whole] for whole, node in self.numbers.items() if whole in held}))
+
     def under_way(self, vehicle: Vehicle) -> int | None:
         """Return the type that is the rest of a vehicle's trip."""
         return self._find(vehicle, True)
@@ -266,6 +273,15 @@ def _served_by(customer: Customer, latest: int) -> Customer | None:
         return None
     return replace(customer, gaps=gaps, latest=min(closes, latest), late_cost_per_hour=None,
                    max_time_aboard=None)
+
+
+def held_back(problem: Problem, held: Mapping[int, int]) -> Problem:
+    """Return a problem in which parcels of some customers, by node, are at the depot later."""
+    customers = list(problem.customers)
+    for node, until in held.items():
+        index = node - problem.num_depots
+        customers[index] = _back(customers[index], until)
+    return replace(problem, customers=tuple(customers))
 
 
 def _back(customer: Customer, returned: int) -> Customer:

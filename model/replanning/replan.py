@@ -4,6 +4,7 @@ import math
 import time
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
+from types import MappingProxyType
 
 from model.counsel.explain import Reason, explain_type, unexplained
 from model.judge.changes import ChangePrices, EarlierPlan, PlanChanges, count_changes, earlier_plan
@@ -28,6 +29,8 @@ from model.replanning.remainder import what_is_left
 from model.replanning.searching import Bridge, begin, joined, relayed, searches
 from model.replanning.workers import find_workers
 from model.solution import Route, Solution, renumbered
+
+NOBODY_HELD: Mapping[int, int] = MappingProxyType({})
 
 UNREADABLE = frozenset({"UNKNOWN_TYPE", "UNKNOWN_NODE", "DEPOT", "COUNT",
                         "SORTIE_STOPS", "UNREACHABLE", "PAIR"})
@@ -100,7 +103,7 @@ class Replanning:
             broken = check(problem, self._settled, past).violations
             workers = find_workers(problem, self.past, self._kept)
         refuse(as_given(terms.plan, self._settled, broken, PAST_RULES))
-        self._left = what_is_left(problem, self.past, self._kept, workers)
+        self.left = what_is_left(problem, self.past, self._kept, workers)
         self._judge = Memory(problem, self.past)
         self.excused = tuple(item for item in broken if item.code not in PAST_RULES)
         """Rules that are broken already, which no plan can mend."""
@@ -123,27 +126,32 @@ class Replanning:
             violation for violation in evaluation.violations if violation not in excused))
 
     def plan(self, planner: Planner, options: PlanOptions, received_at: float | None = None,
-             listener: Listener = ALONE, start: Solution | None = None) -> PlanResult:
+             listener: Listener = ALONE, start: Solution | None = None,
+             held: Mapping[int, int] = NOBODY_HELD) -> PlanResult:
         """Plan what is left; arguments and errors are those of `Planner.plan`.
 
-        `start` is an earlier result to go on from, in place of the plan given. The result is the
-        whole plan, its costs those of the whole.
+        `start` is an earlier result to go on from, in place of the plan given. Customers in `held`
+        are on no trip that begins before an instant, in ms. The result is the whole plan, its costs
+        those of the whole.
         """
         began = time.perf_counter()
         plan = self._plan if start is None else start
         kept = self._kept if start is None else self._kept_of(start)
-        if self._left is None:
+        if self.left is None:
             return self._nothing_left(plan, kept, options)
-        bridge = Bridge(self.problem, self.past, plan, kept, self._left)
-        handed = hand_over(self.problem, plan, kept, self._left)
-        filled = begin(self._left, handed, options, listener.should_stop, bool(self.past.orders))
+        left = self.left.holding(held)
+        bridge = Bridge(self.problem, self.past, plan, kept, left)
+        handed = hand_over(self.problem, plan, kept, left)
+        filled = begin(left, handed, options, listener.should_stop, bool(self.past.orders))
         first, begun, evaluation = self._beginning(bridge, handed, filled.solution)
-        solution, before = self._cheapest((begun, evaluation),
-                                          as_it_stands(self.problem, plan, kept))
+        solution, before = begun, evaluation
+        if not held:
+            solution, before = self._cheapest((begun, evaluation),
+                                              as_it_stands(self.problem, plan, kept))
         # It takes a while in large plans, and would do no better where nobody is lost, and no
         # truck waits for all its drones before it is planned on.
-        if _has_flights(self.past) or self.problem.all_places(served_by(plan)).intersection(
-                begun.unassigned):
+        lost = self.problem.all_places(served_by(plan)).intersection(begun.unassigned)
+        if not held and (lost or _has_flights(self.past)):
             solution, before = self._cheapest(
                 (solution, before), driven_on(self.problem, plan, kept, self.past))
         known = solution, before
@@ -161,7 +169,7 @@ class Replanning:
         relaying = relayed(listener, evaluation.cost.total, bridge)
         since = began if received_at is None else received_at
         results = [each.find(planner, since, relaying, handed, first, cost)
-                   for each in searches(self._left, self.past, first, options)]
+                   for each in searches(left, self.past, first, options)]
         return joined(results, known, before.cost.total, filled.whole, began)
 
     def reasons(self, solution: Solution, node: int,
@@ -230,7 +238,7 @@ class Replanning:
 
     def _later(self, solution: Solution) -> Solution:
         """Return what vehicles do on trips that are yet to begin, as a plan of what is left."""
-        left = self._left
+        left = self.left
         if left is None:
             return Solution(())
         vehicles = [Vehicle(route.vehicle_type, route.vehicle) for route in solution.routes]
@@ -248,7 +256,7 @@ class Replanning:
         `plan` is of what is left.
         """
         name = self.problem.vehicle_types[kind].id
-        left = self._left
+        left = self.left
         types = [] if left is None else left.from_depot(kind, node)
         if left is None or not types:
             return Reason(kind, "FLEET_EXHAUSTED", f"No vehicle of {name} can begin another trip.")

@@ -77,6 +77,23 @@ def test_whoever_opens_a_day_gets_its_problem_and_finds_it_among_plans_on_the_ro
     assert listed[standing(service, day).dispatch] == "found-again"
 
 
+def test_who_may_wait_does_so_until_the_next_departure(service: httpx.Client) -> None:
+    day = begun(service, PROBLEM | {"options": {"search_iterations": 1200}, "forecast": {
+        "every": 3000, "past_days": [[{**order("near", 0, -8)["customer"], "placed_at": 500}]]}},
+        plan_within=30)
+    told(service, day, clock(), order("H", 2, 1, time_window={"latest": 900}),
+         order("alone", 0, -8), at=10)
+    plan = plan_of(service, day)
+    outlook = {each["id"]: each for each in plan["outlook"]}
+    assert outlook["H"]["leaves"]
+    assert outlook["H"]["must"]
+    begins = {stop["id"]: trip["stops"][0]["departure"] for route in plan["routes"]
+              for trip in route["trips"] for stop in trip["stops"]}
+    assert {name: each["leaves"] for name, each in outlook.items()} == {
+        name: begins[name] < 3000 for name in (*"ABCDEF", "H", "alone")}
+    assert not outlook["alone"]["leaves"]
+
+
 def test_what_has_happened_stays_and_is_planned_on_from(service: httpx.Client) -> None:
     day = begun(service)
     before = plan_of(service, day)
