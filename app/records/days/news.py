@@ -1,11 +1,12 @@
 """What follows from a day's new plan: what clients and customers are told of it."""
 
-from collections.abc import Collection, Iterator, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from typing import Any
 
 from pydantic_core import to_json
 
 from app.records.days.fold import Data, Pace, ToldDay, visits
+from app.records.days.remedies import MOST
 from app.records.days.rows import DayTerms
 from app.records.days.spreads import chance_of
 from app.records.dispatches.rows import ToldRow
@@ -21,10 +22,12 @@ OVER = 2 / 3
 
 def news_of(number: int, planned: int, at: int, told: ToldDay, before: PlanInput | None,
             plan: PlanInput, reply: Mapping[str, Any], problem: PlanRequest,
-            terms: DayTerms, pace: Pace) -> list[ToldRow]:
+            terms: DayTerms, pace: Pace,
+            remedy: Callable[[str], Data | None]) -> list[ToldRow]:
     """Return the events of a plan that was just made, `at` being now in ms since 1970.
 
     It counts with events up to the one numbered `planned`; those since the one before had a `pace`.
+    `remedy` finds what mends an order that may be late.
     """
     was = {order: vehicle for order, vehicle, _ in visits(before or PlanInput(routes=()))}
     moved = sum(was.get(order, vehicle) != vehicle for order, vehicle, _ in visits(plan))
@@ -41,8 +44,12 @@ def news_of(number: int, planned: int, at: int, told: ToldDay, before: PlanInput
                 "order": order, "arrival": visit.arrival, "before": told_before,
                 **chance_of(visit)}, vehicle))
     risks = dict(_risks(plan, reply, problem, served, told.at_risk, terms.risk_threshold))
-    rows += [_row(number, at, "order.at_risk", order, {"order": order, "at_risk": True, **why})
-             for order, why in risks.items() if order not in told.at_risk]
+    new = {order: why for order, why in risks.items() if order not in told.at_risk}
+    late = [order for order, why in new.items() if why["why"] != "left_out"][:MOST]
+    mended = {order: {"remedy": found} for order in late if (found := remedy(order)) is not None}
+    rows += [_row(number, at, "order.at_risk", order, {
+        "order": order, "at_risk": True, **why, **mended.get(order, {})})
+        for order, why in new.items()]
     rows += [_row(number, at, "order.at_risk", order, {"order": order, "at_risk": False})
              for order in sorted(told.at_risk - risks.keys())]
     return rows

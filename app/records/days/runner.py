@@ -22,6 +22,7 @@ from app.records.clock import now_ms
 from app.records.days.fold import ToldDay, fold
 from app.records.days.news import names_of, news_of
 from app.records.days.planning import asked, too_late
+from app.records.days.remedies import Quote, remedy_of
 from app.records.days.rows import Begun, DayRow
 from app.records.days.spreads import observed
 from app.records.days.store import DayStore
@@ -76,12 +77,14 @@ class DayRunner:
         Those that the service has.
     is_prepared
         Tells whether the database has its tables.
+    quote
+        Prices slots.
     announce
         Has a webhook told a message by its name, once the transaction of a connection commits.
     """
 
     def __init__(self, engine: Engine, plan: Plan, settings: Settings, roads: Roads,
-                 is_prepared: Callable[[], bool],
+                 is_prepared: Callable[[], bool], quote: Quote,
                  announce: Callable[[Connection, str, str], None]) -> None:
         self._store = DayStore(engine)
         self._dispatches = DispatchStore(engine)
@@ -89,6 +92,7 @@ class DayRunner:
         self._settings = settings
         self._roads = roads
         self._is_prepared = is_prepared
+        self._quote = quote
         self._announce = announce
         self._stopping = threading.Event()
         self._told = threading.Event()
@@ -177,7 +181,9 @@ class DayRunner:
                                              instant(day.plan_start)))
         rows = news_of(day.plan_number + 1, day.asked, round(day.plan_start + 1000 * now), told,
                        before, plan, from_json(reply), problem, begun.terms,
-                       observed(before, told, log, day.planned))
+                       observed(before, told, log, day.planned),
+                       lambda order: remedy_of(order, from_json(wanted), from_json(reply), now,
+                                               self._quote))
         self._store.publish(self._with_end(day, plan), self._by, reply, work, rows,
                             partial(self._announced, day, begun.terms.webhook, rows))
 

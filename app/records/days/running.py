@@ -26,9 +26,13 @@ def running_days(settings: Settings, planning: PlanDesk,
         received = ReceivedBody(body, time.perf_counter())
         return bytes(planning.do(answers.plan, received, should_stop=should_stop))
 
+    def quote(body: bytes) -> bytes:
+        received = ReceivedBody(body, time.perf_counter())
+        return bytes(planning.do(answers.quote, received, should_stop=lambda: False))
+
     engine = connect(settings.database)
     runner = DayRunner(engine, plan, settings, planning.roads, lambda: jobs.database.is_prepared,
-                       jobs.queues.add_webhook)
+                       quote, jobs.queues.add_webhook)
     runner.start()
     try:
         yield runner

@@ -93,6 +93,29 @@ def test_order_is_at_risk_before_its_window_is_missed(service: httpx.Client) -> 
     assert [each["at_risk"] for each in about(service, day, "order.at_risk", "B")] == [True, False]
 
 
+def test_remedy_is_another_place_in_the_plan_at_its_price(service: httpx.Client) -> None:
+    slow, promised = FAR["customers"]
+    day = begun(service, {**FAR, "fleet": [{**FAR["fleet"][0], "count": 2}], "customers": [
+        {**slow, "service_duration": 400}, {**promised, "time_window": {"latest": 1750}}]})
+    risk, = about(service, day, "order.at_risk", "B")
+    # The same van serves it 400 s sooner, before the other, and drives as far.
+    assert risk["remedy"] == {"code": "serve_sooner", "vehicle": "van-1", "arrival": 1300,
+                              "cost": pytest.approx(0, abs=1e-6)}
+    day = begun(service, {**FAR, "fleet": [{**FAR["fleet"][0], "count": 2}], "customers": [
+        {**slow, "service_duration": 400, "time_window": {"latest": 750}},
+        {**promised, "time_window": {"latest": 1750}}]})
+    risk, = about(service, day, "order.at_risk", "B")
+    # Another van has to, for 10 and the way there and back.
+    assert (risk["remedy"]["vehicle"], risk["remedy"]["arrival"]) == ("van-2", 1300)
+    assert risk["remedy"]["cost"] > 10
+    # Nobody else has the parcel any more.
+    day = begun(service, FAR)
+    told(service, day, clock(), {"kind": "vehicle.departed", "vehicle": "van-1", "at": 100},
+         {"kind": "vehicle.delayed", "vehicle": "van-1", "by": 520}, at=120)
+    risk, = about(service, day, "order.at_risk", "B")
+    assert "remedy" not in risk
+
+
 def test_what_vehicles_tell_moves_spreads(service: httpx.Client) -> None:
     day = begun(service, {**PROBLEM, "fleet": [{**PROBLEM["fleet"][0], "count": 1,
                                                 "capacity": [6]}]})
