@@ -176,3 +176,15 @@ EVENTS = Table(
     Column("body", Text),  # JSON: what else was told
     Index("day_events_by_id", "day", "origin", "id", unique=True),
 )
+PROOFS = Table(
+    "day_proofs", TABLES,
+    Column("day", String(36), primary_key=True),
+    Column("vehicle", Text, primary_key=True),
+    Column("id", String(36), primary_key=True),  # that the phone gave it
+    Column("step", String(40), nullable=False),
+    Column("orders", Text, nullable=False),  # JSON: whom it is of
+    Column("name", Text, nullable=False),  # of who took it
+    Column("time", BigInteger, nullable=False),  # milliseconds since 1970
+    Column("photo", LargeBinary),
+    Column("signature", LargeBinary),
+)

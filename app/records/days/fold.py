@@ -6,7 +6,7 @@ from typing import Any, NamedTuple
 
 from app.records.days.rows import Begun, LoggedEvent
 from app.records.dispatches.going_on import GROUNDING
-from app.records.dispatches.rows import EventRow
+from app.records.dispatches.rows import PLAN_SEEN, EventRow
 from app.records.dispatches.standing import Standing, is_broken, of_steps, standing_of
 from app.schemas.plan import PlanInput, StopInput, VisitInput
 
@@ -19,7 +19,7 @@ CLIENTS = frozenset({
     "drone.launched", "drone.recovered", "drone.lost", "clock"})
 """Kinds of events that clients and drivers tell; others are the service's own."""
 
-KINDS = (*sorted(CLIENTS), "day.begun", "plan.changed", "eta.changed", "order.at_risk")
+KINDS = (*sorted(CLIENTS), PLAN_SEEN, "day.begun", "plan.changed", "eta.changed", "order.at_risk")
 
 
 class Pace(NamedTuple):

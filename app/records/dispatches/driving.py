@@ -1,6 +1,6 @@
 """A vehicle's day as its driver sees it, and what the driver tells; waits for the database."""
 
-from datetime import timedelta
+from datetime import datetime, timedelta
 from typing import Any
 
 from pydantic_core import to_json
@@ -11,9 +11,9 @@ from app.records.dispatches.errors import LinkOverError, TooManyEventsError
 from app.records.dispatches.instants import instant, milliseconds
 from app.records.dispatches.links import find_link
 from app.records.dispatches.going_on import GROUNDING
-from app.records.dispatches.rows import DispatchRow, ToldRow, VehicleLinkRow
+from app.records.dispatches.rows import PLAN_SEEN, DispatchRow, ToldRow, VehicleLinkRow
 from app.records.dispatches.schemas import (
-    BREAKDOWN, DriverDay, EventInput, EventsReply, EventsRequest, StepReply,
+    BREAKDOWN, SEEN, DriverDay, EventInput, EventsReply, EventsRequest, StepReply,
 )
 from app.records.dispatches.standing import Standing, standing_of, standing_reply
 from app.records.dispatches.store import DispatchStore
@@ -90,13 +90,9 @@ def tell(store: DispatchStore, token: str, request: EventsRequest) -> EventsRepl
     TooManyEventsError
         If the link told too much.
     """
-    link, dispatch = find_link(store, token)
-    if link.revoked_at is not None:
-        raise LinkOverError(was_revoked=True)
+    link, dispatch = open_or_over(store, token)
     now = now_ms()
-    wrong_by = now - milliseconds(request.now)
-    if abs(wrong_by) < TRUE_ENOUGH / timedelta(milliseconds=1):
-        wrong_by = 0
+    wrong_by = clock_error(request.now, now)
     steps = store.steps(link.id)
     known = {step.id: step for step in steps}
     store.add_events(link, [_row(event, link.vehicle, known.get(event.step), wrong_by, now)
@@ -105,11 +101,33 @@ def tell(store: DispatchStore, token: str, request: EventsRequest) -> EventsRepl
                        standing=standing_reply(_standing(store, link, dispatch), steps))
 
 
+def open_or_over(store: DispatchStore, token: str) -> tuple[VehicleLinkRow, DispatchRow]:
+    """Return a link that wasn't revoked, though its day may be over, and its dispatch.
+
+    Raises
+    ------
+    UnknownLinkError, LinkOverError
+        If the token is none, or the link was revoked.
+    """
+    link, dispatch = find_link(store, token)
+    if link.revoked_at is not None:
+        raise LinkOverError(was_revoked=True)
+    return link, dispatch
+
+
+def clock_error(told: datetime, now: int) -> int:
+    """Return by how many milliseconds a phone's clock is behind; 0 if it is true enough."""
+    wrong_by = now - milliseconds(told)
+    return 0 if abs(wrong_by) < TRUE_ENOUGH / timedelta(milliseconds=1) else wrong_by
+
+
 def _row(event: EventInput, vehicle: str, step: StepReply | None, wrong_by: int,
          now: int) -> ToldRow:
     """Return an event as it is kept; none is of the future."""
     time = min(milliseconds(event.time) + wrong_by, now)
     told: dict[str, Any] = {"by": "driver"}
+    if event.step == SEEN:
+        return ToldRow(event.id, PLAN_SEEN, time, vehicle, body=to_json(told).decode())
     if step is not None and step.customers:
         told["orders"] = [each.id for each in step.customers]
     if step is not None and step.drone is not None:

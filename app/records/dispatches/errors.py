@@ -50,6 +50,22 @@ class LinkOverError(RequestError, status=410, name="link-over", refusal="access"
                          else "The day of this link is over.")
 
 
+class UnknownProofError(RequestError, status=404, name="unknown-proof"):
+    """There is no such picture."""
+
+    title = "There is no such proof"
+    always = "`GET /dispatches/{id}/proofs` has those that there are."
+
+
+class TooManyProofsError(RequestError, status=409, name="too-many-proofs"):
+    """A vehicle has sent as many proofs as it may."""
+
+    title = "Too many proofs were sent"
+
+    def __init__(self, most: int) -> None:
+        super().__init__(f"A vehicle may send {most} proofs of its day: keep the others.")
+
+
 class TooManyEventsError(RequestError, status=409, name="too-many-events"):
     """A link has told as much as it may."""
 

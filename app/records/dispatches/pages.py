@@ -15,7 +15,8 @@ from app.plans.flights.routes import FLIGHTS, sent
 from app.records.dispatches.driving import read_day, read_flights, tell
 from app.records.dispatches.errors import UnknownVehicleLinkError
 from app.records.dispatches.links import DRIVER_TOKENS
-from app.records.dispatches.schemas import DriverDay, EventsReply, EventsRequest
+from app.records.dispatches.proofs import ProofInput, keep_proof
+from app.records.dispatches.schemas import DriverDay, EventsReply, EventsRequest, ProofsReply
 from app.records.dispatches.store import DispatchStore
 from app.records.prepared import Database
 from app.requests.reading import read_model
@@ -109,6 +110,18 @@ async def driver_events(request: Request, token: Token, database: Database, body
     except UnknownVehicleLinkError:
         raise _unknown(request) from None
     return Response(reply.model_dump_json(), media_type="application/json")
+
+
+@router.post("/drive/proofs", summary="Send a proof of delivery", response_model=ProofsReply,
+             responses=TOLD, openapi_extra=json_body(ProofInput))
+async def driver_proof(request: Request, token: Token, database: Database, body: Body) -> Response:
+    """Keep who took it, a photo and a signature with the stop; one sent again counts once."""
+    try:
+        proofs = await database.reach(lambda engine: keep_proof(
+            engine, token, read_model(body.content, ProofInput)))
+    except UnknownVehicleLinkError:
+        raise _unknown(request) from None
+    return Response(ProofsReply(proofs=proofs).model_dump_json(), media_type="application/json")
 
 
 def _unknown(request: Request) -> UnknownVehicleLinkError:

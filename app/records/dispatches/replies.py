@@ -43,6 +43,7 @@ def _link_reply(followed: Followed, known: LinkStanding, base: str,
         id=link.id, vehicle=link.vehicle, name=link.name or link.vehicle, state=state, url=address,
         qr=None if address is None else qr_of(address),
         opened_at=None if link.opened_at is None else instant(link.opened_at),
+        seen_at=None if known.seen_at is None else instant(known.seen_at),
         told_at=None if known.told_at is None else instant(known.told_at),
         steps=len(known.steps), done=len(steps) - count, failed=count, standing=told,
         next=next((step.id for step in known.steps if step.id not in known.standing), None))

@@ -8,9 +8,10 @@ from sqlalchemy import Engine
 
 from app.plans.checking import read_about_plan
 from app.records.dispatches.doubts import Answers
+from app.records.dispatches.proofs import Part, picture_of, proofs_of
 from app.records.dispatches.replies import dispatch_reply, summary
 from app.records.dispatches.schemas import (
-    DispatchListReply, DispatchOptions, DispatchReply, DispatchRequest, GoingOnReply,
+    DispatchListReply, DispatchOptions, DispatchReply, DispatchRequest, GoingOnReply, ProofsReply,
 )
 from app.records.dispatches.service import DispatchService, Followed
 from app.records.dispatches.store import DispatchStore
@@ -122,6 +123,34 @@ async def go_on(
     answers = Answers(frozenset(served or ()), frozenset(unserved or ()))
     return _json(await database.reach(lambda engine: _service(request, engine).going_on(
         dispatch_id, principal.key_id, now, answers)))
+
+
+@router.get("/dispatches/{dispatch_id}/proofs", summary="List proofs of delivery",
+            response_model=ProofsReply, responses=FOUND)
+async def list_proofs(request: Request, dispatch_id: DispatchId, principal: Jobs,
+                      database: Database) -> Response:
+    """Return what drivers sent of those who took it, without pictures."""
+    return _json(await database.reach(lambda engine: ProofsReply(proofs=proofs_of(
+        engine, _service(request, engine).find(dispatch_id, principal.key_id)))))
+
+
+@router.get("/dispatches/{dispatch_id}/proofs/{vehicle}/{proof}/{part}", summary="Get a picture",
+            response_class=Response, responses={
+                200: {"description": "The picture.", "content": {"image/jpeg": {},
+                                                                 "image/png": {}}},
+                **problems(_404="There is no such picture, or it is another's.",
+                           _422="A parameter is not valid.", _503=UNAVAILABLE)})
+async def get_proof(
+    request: Request, dispatch_id: DispatchId, principal: Jobs, database: Database,
+    vehicle: Annotated[str, Path(max_length=200, description="Id of the vehicle.")],
+    proof: Annotated[str, Path(max_length=36, description="Name of the proof.")],
+    part: Annotated[Part, Path(description="Which of its pictures.")],
+) -> Response:
+    """Return a photo or a signature as the phone sent it."""
+    picture, kind = await database.reach(lambda engine: picture_of(
+        engine, _service(request, engine).find(dispatch_id, principal.key_id), vehicle, proof,
+        part))
+    return Response(picture, media_type=kind)
 
 
 @router.post("/dispatches/{dispatch_id}/links/{link_id}", summary="Make a new link for a vehicle",

@@ -5,6 +5,10 @@ from dataclasses import dataclass
 from app.records.dispatches.schemas import EventKind
 
 
+PLAN_SEEN = "plan.seen"
+"""Kind of the event that a driver has seen what is new, for which no plan is made."""
+
+
 @dataclass(frozen=True)
 class DispatchRow:
     """A plan on the road, without the plan."""

@@ -12,6 +12,9 @@ StepKind = Literal["depart", "stop", "launch", "recover", "return"]
 BREAKDOWN: Literal["vehicle"] = "vehicle"
 """In place of a step's id: what is told is of the vehicle. It has failed, or goes on again."""
 
+SEEN: Literal["changes"] = "changes"
+"""In place of a step's id: the driver has seen what is new and what was taken away."""
+
 Outcome = Literal["done", "failed"]
 EventKind = Literal["done", "failed", "undone"]
 LinkState = Literal["open", "revoked", "over"]
@@ -33,7 +36,9 @@ PlanStart = Annotated[AwareDatetime | None, Field(description=PLAN_START)]
 TimeZone = Annotated[str | None, Field(max_length=100, description=TIME_ZONE)]
 
 
-class _Input(BaseModel):
+class DriverInput(BaseModel):
+    """What is sent of a plan on the road."""
+
     model_config = ConfigDict(extra="forbid", strict=True, allow_inf_nan=False, frozen=True)
 
 
@@ -41,7 +46,7 @@ class _Reply(BaseModel):
     model_config = ConfigDict(extra="forbid")
 
 
-class DispatchOptions(_Input):
+class DispatchOptions(DriverInput):
     """When a plan's day is."""
 
     plan_start: PlanStart = None
@@ -125,6 +130,25 @@ class StepStanding(_Reply):
     reason: str | None = Field(None, description="Why it failed, in the driver's words.")
 
 
+class ProofReply(_Reply):
+    """A proof of delivery, without its pictures."""
+
+    id: str = Field(description="Its name.")
+    vehicle: str = Field(description="Id of the vehicle.")
+    step: str = Field(description="Id of the step.")
+    orders: list[str] = Field(description="Whom it is of.")
+    name: str = Field(description="Of who took it.")
+    time: float = Field(description="When, in seconds since plan start.")
+    photo: bool = Field(description="Whether there is a photo.")
+    signature: bool = Field(description="Whether there is a signature.")
+
+
+class ProofsReply(_Reply):
+    """Proofs of delivery, the youngest first."""
+
+    proofs: list[ProofReply] = Field(description="The youngest first.")
+
+
 class DriverDay(_Reply):
     """One vehicle's day: no other's is in it."""
 
@@ -141,14 +165,15 @@ class DriverDay(_Reply):
     standing: list[StepStanding] = Field(description="What was told of steps so far.")
 
 
-class EventInput(_Input):
+class EventInput(DriverInput):
     """Something a driver tells."""
 
     id: Annotated[str, Field(min_length=1, max_length=36, pattern="^[A-Za-z0-9-]+$")] = Field(
         description="A name that is this event's own, such as a UUID: sent again it counts once."
     )
     step: Annotated[str, Field(min_length=1, max_length=40)] = Field(
-        description="Id of the step; `vehicle`, with `failed`: it has broken down.")
+        description="Id of the step; `vehicle`, with `failed`: it has broken down; `changes`, with "
+        "`done`: what is new was seen.")
     kind: EventKind = Field(description="`undone` takes back what was told before.")
     time: AwareDatetime = Field(description="When it happened, by the sender's clock.")
     reason: Annotated[str, Field(max_length=MAX_REASON_LENGTH)] | None = Field(
@@ -156,7 +181,7 @@ class EventInput(_Input):
     )
 
 
-class EventsRequest(_Input):
+class EventsRequest(DriverInput):
     """What a driver tells, in the order in which it happened."""
 
     now: AwareDatetime = Field(
@@ -186,6 +211,8 @@ class DriverLinkReply(_Reply):
     qr: str | None = Field(None, description="The link as a QR code: an image as `data:` URL.")
     opened_at: datetime | None = Field(description="When it was opened first.")
     told_at: datetime | None = Field(description="When the driver told something last.")
+    seen_at: datetime | None = Field(
+        None, description="When the driver last said that what is new was seen.")
     steps: int = Field(description="Steps of the day.")
     done: int = Field(description="Steps that were told to be done.")
     failed: int = Field(description="Steps that were told to have failed.")

@@ -46,6 +46,7 @@ class LinkStanding:
     steps: list[StepReply]
     standing: Standing
     told_at: int | None  # milliseconds since 1970
+    seen_at: int | None = None
 
 
 @dataclass(frozen=True)
@@ -230,13 +231,13 @@ class DispatchService:
         return found[0]
 
     def _followed(self, row: DispatchRow, tokens: Mapping[str, NewToken]) -> Followed:
-        events = self._store.events(row.id)
+        events, seen = self._store.events(row.id), self._store.seen(row.id)
         links = []
         for link in self._store.links(row.id):
             told = events.get(link.vehicle, [])
             links.append(LinkStanding(
                 link, self._store.steps(link.id), standing_of(told, row.plan_start),
-                max((event.time for event in told), default=None)))
+                max((event.time for event in told), default=None), seen.get(link.vehicle)))
         return Followed(row, links, tokens)
 
 

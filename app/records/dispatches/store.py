@@ -8,10 +8,12 @@ from typing import Any
 from pydantic import TypeAdapter
 from sqlalchemy import ColumnElement, Connection, Engine, case, delete, func, insert, select, update
 
-from app.database.tables import DAYS, EVENTS, LINKS
+from app.database.tables import DAYS, EVENTS, LINKS, PROOFS
 from app.plans.flights.flight import Flight
 from app.records.clock import now_ms
-from app.records.dispatches.rows import DispatchRow, EventRow, ToldRow, VehicleLinkRow
+from app.records.dispatches.rows import (
+    PLAN_SEEN, DispatchRow, EventRow, ToldRow, VehicleLinkRow,
+)
 from app.records.dispatches.schemas import StepReply
 from app.requests.plan_reading import parse_plan
 from app.schemas.plan import PlanInput
@@ -182,6 +184,13 @@ class DispatchStore:
             if new:
                 add_events(connection, link.dispatch, revision, origin, list(new.values()))
 
+    def seen(self, dispatch: str) -> dict[str, int]:
+        """Return when each vehicle's driver last saw what is new, milliseconds since 1970."""
+        statement = (select(EVENTS.c.vehicle, func.max(EVENTS.c.time)).group_by(EVENTS.c.vehicle)
+                     .where(EVENTS.c.day == dispatch, EVENTS.c.kind == PLAN_SEEN))
+        with self._engine.connect() as connection:
+            return dict(connection.execute(statement).all())
+
     def events(self, dispatch: str) -> dict[str, list[EventRow]]:
         """Return what was told of steps, by vehicle."""
         statement = (select(EVENTS.c.vehicle, *_EVENT)
@@ -217,8 +226,9 @@ def add_events(connection: Connection, day: str, revision: int, origin: str,
     """Keep events that follow the last of a day, and are to be planned for. In place."""
     log_events(connection, day, revision, origin, events)
     last = revision + len(events)
-    connection.execute(update(DAYS).where(DAYS.c.id == day).values(
-        revision=last, asked=case((DAYS.c.request.is_not(None), last), else_=0)))
+    planned = {} if all(event.kind == PLAN_SEEN for event in events) else {
+        "asked": case((DAYS.c.request.is_not(None), last), else_=0)}
+    connection.execute(update(DAYS).where(DAYS.c.id == day).values(revision=last, **planned))
 
 
 def put_work(connection: Connection, dispatch: str, work: VehicleWork) -> None:
@@ -237,6 +247,7 @@ def delete_expired(engine: Engine) -> None:
         with engine.begin() as connection:
             ids = list(connection.scalars(expired))
             for table, column in ((EVENTS, EVENTS.c.day), (LINKS, LINKS.c.dispatch),
+                                  (PROOFS, PROOFS.c.day),
                                   (DAYS, DAYS.c.id)):
                 connection.execute(delete(table).where(column.in_(ids)))
         if len(ids) < BATCH:

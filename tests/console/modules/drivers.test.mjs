@@ -9,7 +9,7 @@ register('./as-served.mjs', import.meta.url);
 const { clock, windowText } = await import('../../../app/records/dispatches/static/js/clocks.js');
 const { linkOf, tokenOf } = await import('../../../app/records/dispatches/static/js/link.js');
 const { chosenNavigator, NAVIGATORS, navigation } = await import('../../../app/records/dispatches/static/js/navigators.js');
-const { isBroken, isOther, nextStep, standings, telephone, titleOf } = await import('../../../app/records/dispatches/static/js/steps.js');
+const { isBroken, isOther, newsOf, nextStep, standings, telephone, titleOf } = await import('../../../app/records/dispatches/static/js/steps.js');
 
 const PLACE = { latitude: 48.1, longitude: 11.5 };
 
@@ -175,4 +175,13 @@ test('plans on the road are found again until they end', () => {
   );
   assert.deepEqual(found.map(({ id }) => id), ['a']);
   assert.match(found[0].words, /^2026-11-23, sent out /);
+});
+
+test('what is new for a driver, and what was taken away, is told by place', () => {
+  const step = (kind, place, customers = []) => ({ kind, place, customers });
+  const seen = [step('depart', 'hub'), step('stop', 'A'), step('launch', 'A', [{ id: 'C' }])];
+  const steps = [step('depart', 'hub'), step('stop', 'B'), step('launch', 'B', [{ id: 'C' }])];
+  const { added, gone } = newsOf({ seen, steps });
+  assert.deepEqual([added, gone].map((list) => list.map(({ place }) => place)), [['B'], ['A']]);
+  assert.deepEqual(newsOf({ steps }).added.length, 2);
 });

@@ -194,6 +194,13 @@ export const getGoingOn = (id, answers) => {
   return json(`dispatches/${id}/replan?${new URLSearchParams(asked)}`);
 };
 
+/** Return the proofs of delivery that drivers of a plan sent, the youngest first. */
+export const getProofs = async (id) => (await json(`dispatches/${id}/proofs`)).proofs;
+
+/** Return a picture of a proof: its `photo` or its `signature`. */
+export const getPicture = async (id, vehicle, proof, part) =>
+  (await send(`dispatches/${id}/proofs/${encodeURIComponent(vehicle)}/${proof}/${part}`)).blob();
+
 /** End a plan's day. */
 export const endDispatch = (id) => json(`dispatches/${id}`, { method: 'DELETE' });
 

@@ -2239,6 +2239,14 @@ export default {
     at: 'bei {{stop}}, bis {{until}}',
     onWay: 'unterwegs zu {{stop}}, dort um {{at}}',
   },
+  proofs: {
+    title: 'Zustellnachweise',
+    none: 'Noch hat niemand einen gesendet.',
+    photo: 'Foto',
+    photoOf: 'Foto von {{of}}',
+    signature: 'Unterschrift',
+    signatureOf: 'Unterschrift für {{of}}',
+  },
   live: {
     begin: 'Den Tag beginnen',
     plan: 'Der Tag',
@@ -2251,6 +2259,8 @@ export default {
     late: '{{by}} zu spät',
     waits: 'Wartet auf den nächsten Plan',
     seen: 'Gesehen',
+    seenAt: 'gesehen {{at}}',
+    unseen: 'noch nicht gesehen',
     served: 'Bedient',
     servedOf: '{{id}} wurde bedient',
     unserved: 'Nicht bedient',

@@ -2187,6 +2187,14 @@ export default {
     at: 'at {{stop}}, until {{until}}',
     onWay: 'on its way to {{stop}}, there at {{at}}',
   },
+  proofs: {
+    title: 'Proofs of delivery',
+    none: 'Nobody sent one yet.',
+    photo: 'Photo',
+    photoOf: 'Photo of {{of}}',
+    signature: 'Signature',
+    signatureOf: 'Signature for {{of}}',
+  },
   live: {
     begin: 'Begin the day',
     plan: 'The day',
@@ -2199,6 +2207,8 @@ export default {
     late: '{{by}} late',
     waits: 'Waits for the next plan',
     seen: 'Seen',
+    seenAt: 'seen {{at}}',
+    unseen: 'not seen yet',
     served: 'Served',
     servedOf: '{{id}} was served',
     unserved: 'Not served',

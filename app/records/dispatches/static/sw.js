@@ -12,6 +12,7 @@ const FILES = [
   'js/link.js',
   'js/main.js',
   'js/navigators.js',
+  'js/proofs.js',
   'js/queue.js',
   'js/reasons.js',
   'js/steps.js',

@@ -27,9 +27,10 @@ export function changesOf(before, index) {
 }
 
 function changeOf(was, { vehicle, arrival }) {
-  if (!was) return { kind: 'new', text: t('live.new') };
-  if (was.vehicle.name !== vehicle.name) {
-    return { kind: 'moved', text: `\u2192 ${nameOfVehicle(vehicle.name)}` };
+  const { name } = vehicle;
+  if (!was) return { kind: 'new', text: t('live.new'), vehicle: name };
+  if (was.vehicle.name !== name) {
+    return { kind: 'moved', text: `\u2192 ${nameOfVehicle(name)}`, vehicle: name };
   }
   const by = arrival - was.arrival;
   if (Math.abs(by) < LEAST) return null;

@@ -21,9 +21,10 @@ import { beginDay, openDay, tell } from '../living.js';
 import { useStore } from '../store.js';
 import { printSheets } from './driver-sheets.js';
 import { Badge } from './parts.js';
+import { Proofs } from './proofs.js';
 import { UntoldOrders } from './untold-orders.js';
 import { LiveDay } from './live-day.js';
-import { t } from '../texts.js';
+import { language, t } from '../texts.js';
 
 /** The tab. */
 export function DriversTab() {
@@ -81,13 +82,14 @@ function OnTheRoad({ dispatch, isLive }) {
         (link) => html`<${Link} key=${link.id} link=${link} isLive=${isLive}
           vehicle=${vehicles.get(link.vehicle)} />`,
       )}</ul></section>
-    <${Failures} links=${[...links.values()]} />`;
+    <${Proofs} dispatch=${dispatch.reply.id} /><${Failures} links=${[...links.values()]} />`;
 }
 
 function Link({ link, vehicle, isLive }) {
   const name = nameOfVehicle(link.vehicle);
   const of = { vehicle: name };
   const late = behindPlan(link);
+  const isUnseen = useStore(({ live }) => live && isNewTo(link, live, indexOf(live.since)));
   const [shown, setShown] = useState(false);
   const [copied, setCopied] = useState(false);
   const copy = async () => {
@@ -97,7 +99,9 @@ function Link({ link, vehicle, isLive }) {
   return html`<li class="card"><header>
       <strong>${vehicle && html`<${Badge} vehicle=${vehicle} /> `}${name}</strong>
       <span class="right" aria-live="polite">${standingText(link)}${late > 0 &&
-        html` <strong class="late-text">+${duration(late)}</strong>`}</span></header>
+        html` <strong class="late-text">+${duration(late)}</strong>`}
+        ${isUnseen ? html` <span class="news doubt">${t('live.unseen')}</span>`
+          : link.seen_at && ` ${t('live.seenAt', { at: timeOf(link.seen_at) })}`}</span></header>
     <div class="inside"><div class="buttons">
       ${link.url && link.state === 'open' && html`
         <button type="button" onClick=${copy} 
@@ -117,6 +121,16 @@ function Link({ link, vehicle, isLive }) {
     </div>
     ${shown && html`<img class="qr" src=${link.qr} alt=${t('drivers.qrOf', of)} />`}
     </div></li>`;
+}
+
+const timeOf = (instant) =>
+  new Date(instant).toLocaleTimeString(language(), { timeStyle: 'short' });
+
+/** Tell whether what changed is about a vehicle whose driver has not said that it was seen. */
+function isNewTo({ vehicle, seen_at: seen }, { changes, changedAt }, before) {
+  const isAbout = [...changes].some(([key, change]) => ['new', 'moved', 'out'].includes(change.kind)
+    && [change.vehicle, before?.halts.get(key)?.vehicle.name].includes(vehicle));
+  return isAbout && !(new Date(seen ?? 0).getTime() >= changedAt);
 }
 
 const DELAYS = [10, 20, 30, 60, 120]; // minutes

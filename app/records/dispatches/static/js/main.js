@@ -4,9 +4,9 @@ import { html, render } from '../../console/vendor/htm-3.1.1/standalone.module.j
 import * as days from './days.js';
 import { saveFlights } from './flights.js';
 import { forgetToken, linkOf, tokenOf } from './link.js';
-import { ask, eventOf, LinkOver, Refused, send } from './queue.js';
+import { ask, eventOf, LinkOver, PROOF, Refused, send } from './queue.js';
 import { forgetDraft } from './reasons.js';
-import { isOther } from './steps.js';
+import { CHANGES } from './steps.js';
 import { t } from './texts.js';
 import { calledIn, Day, Message } from './views.js';
 
@@ -16,7 +16,7 @@ const REFRESH_MS = 60000;
 const root = document.getElementById('day');
 const token = tokenOf(location.hash, localStorage);
 const link = token && linkOf(token);
-const state = { day: null, waiting: [], isReached: true, isChanged: false, failure: '' };
+const state = { day: null, waiting: [], isReached: true, failure: '' };
 let asking = Promise.resolve();
 let asked = 0;
 
@@ -26,6 +26,7 @@ function draw() {
     document.title = calledIn(state.day);
     const doing = {
       onTell: tell,
+      onProve: prove,
       onSeen: seeChange,
       onLanguage: draw,
       onFlights: (format) => saveFlights(token, format),
@@ -39,7 +40,18 @@ function draw() {
 
 /** Keep what the driver tells, show it, and send it. */
 async function tell(step, kind, reason) {
-  await days.keepEvent(eventOf(link, step, kind, reason));
+  await keepTold(step, kind, reason && { reason });
+}
+
+/** Keep who took it, a photo and a signature, and send them when there is network. */
+async function prove(step, proof) {
+  const proven = [...(state.day.proven ?? []), step];
+  await keep({ ...state.day, proven });
+  await keepTold(step, PROOF, { proof });
+}
+
+async function keepTold(step, kind, more) {
+  await days.keepEvent(eventOf(link, step, kind, more));
   state.waiting = await days.waitingEvents(link);
   draw();
   catchUp();
@@ -71,16 +83,17 @@ async function exchange(isDue) {
   draw();
 }
 
-/** Say no more that the day has changed. */
-function seeChange() {
-  state.isChanged = false;
-  draw();
+/** Tell that what is new was seen; from now on, what comes then is new. */
+async function seeChange() {
+  await keep({ ...state.day, seen: state.day.steps });
+  await tell(CHANGES, 'done');
 }
 
+/** Keep the day, with what only the phone knows of it. */
 async function keep(day) {
-  state.isChanged ||= state.day !== null && isOther(state.day.steps, day.steps);
-  state.day = day;
-  await days.keepDay(day);
+  const { seen = day.steps, proven } = state.day ?? {};
+  state.day = { seen, proven, ...day };
+  await days.keepDay(state.day);
 }
 
 /** Give up what can't go on: a link that is over, or something told that is refused. */

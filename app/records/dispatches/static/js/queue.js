@@ -11,6 +11,13 @@ export class LinkOver extends Error {}
 /** What was told can't be taken. */
 export class Refused extends Error {}
 
+/** Of what is told, a proof of delivery. */
+export const PROOF = 'proof';
+
+function proofIn({ id, step, time, proof }) {
+  return { id, step, time, ...proof };
+}
+
 /** Ask the service; `null` while there is no network or it can't answer now. */
 export async function ask(token, path, body) {
   const headers = { Authorization: `Bearer ${token}` };
@@ -32,10 +39,10 @@ export async function ask(token, path, body) {
   throw new Refused(t('failure.refused', { status: String(reply.status) }));
 }
 
-/** Return what is told of a step now, to be kept. */
-export function eventOf(link, step, kind, reason) {
-  const event = { link, id: crypto.randomUUID(), step, kind, time: new Date().toISOString() };
-  return reason ? { ...event, reason } : event;
+/** Return what is told of a step now, to be kept; `more` is its reason, or a proof. */
+export function eventOf(link, step, kind, more = {}) {
+  const time = new Date().toISOString();
+  return { link, id: crypto.randomUUID(), step, kind, time, ...more };
 }
 
 /**
@@ -47,17 +54,21 @@ export async function send(token, link) {
   let standing = null;
   let waiting = await days.waitingEvents(link);
   while (waiting.length) {
-    const events = waiting.slice(0, MOST_AT_ONCE);
-    const told = events.map(({ id, step, kind, time, reason }) => ({
+    const marks = waiting.filter(({ kind }) => kind !== PROOF).slice(0, MOST_AT_ONCE);
+    // Pictures are large, and come last.
+    const events = marks.length ? marks : waiting.slice(0, 1);
+    const told = marks.map(({ id, step, kind, time, reason }) => ({
       id,
       step,
       kind,
       time,
       ...(reason && { reason }),
     }));
-    const reply = await ask(token, 'events', { now: new Date().toISOString(), events: told });
+    const now = new Date().toISOString();
+    const reply = told.length ? await ask(token, 'events', { now, events: told })
+      : await ask(token, 'proofs', { now, ...proofIn(events[0]) });
     if (!reply) return standing;
-    standing = reply.standing;
+    standing = reply.standing ?? standing;
     await days.dropEvents(events);
     waiting = await days.waitingEvents(link);
   }

@@ -1,14 +1,18 @@
 /** How the day's steps stand: by what the service knows, and what it wasn't told yet. */
 
+import { PROOF } from './queue.js';
 import { REASONS } from './reasons.js';
 import { language, t } from './texts.js';
+
+/** In place of a step: what is new, and what was taken away, was seen. */
+export const CHANGES = 'changes';
 
 /** Return what holds of steps, by id: `{state, reason, isSent}`. */
 export function standings(standing, waiting) {
   const found = new Map(
     standing.map(({ id, state, reason }) => [id, { state, reason, isSent: true }]),
   );
-  for (const { step, kind, reason } of waiting) {
+  for (const { step, kind, reason } of waiting.filter((event) => event.kind !== PROOF)) {
     found.set(step, { state: kind === 'undone' ? 'open' : kind, reason, isSent: false });
   }
   return found;
@@ -21,6 +25,21 @@ export const VEHICLE = 'vehicle';
 export function isBroken(found) {
   return found.get(VEHICLE)?.state === 'failed';
 }
+
+/** Return what is new since the driver looked, and what was taken away: `{added, gone}`, steps. */
+export function newsOf({ seen = [], steps }) {
+  const places = (list) => new Set(list.filter(isServing).map(nameOf));
+  const [was, now] = [places(seen), places(steps)];
+  return {
+    added: steps.filter((step) => isServing(step) && !was.has(nameOf(step))),
+    gone: seen.filter((step) => isServing(step) && !now.has(nameOf(step))),
+  };
+}
+
+const isServing = ({ kind }) => kind === 'stop' || kind === 'launch';
+
+const nameOf = ({ kind, place, customers }) =>
+  (kind === 'stop' ? place : customers.map(({ id }) => id).join());
 
 /** Tell whether other steps are to be done, or in another order. */
 export function isOther(before, now) {

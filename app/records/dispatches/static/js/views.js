@@ -1,6 +1,6 @@
 /** What drivers see. */
 
-import { html, useState } from '../../console/vendor/htm-3.1.1/standalone.module.js';
+import { html, useEffect, useRef, useState } from '../../console/vendor/htm-3.1.1/standalone.module.js';
 import { clock, windowText } from './clocks.js';
 import { chooseFormat, chosenFormat, FORMATS } from './flights.js';
 import {
@@ -11,13 +11,16 @@ import {
   NAVIGATORS,
   pointText,
 } from './navigators.js';
+import { drawOn, signatureOf, smallPhoto } from './proofs.js';
 import { draftOf, keepDraft, REASONS, reasonText, toldReason } from './reasons.js';
 import {
   amounts,
   countOver,
   isBroken,
+  isOther,
   isSome,
   mayFail,
+  newsOf,
   nextStep,
   standings,
   telephone,
@@ -38,8 +41,8 @@ export function calledIn({ name, vehicle }) {
 }
 
 /** The whole day. */
-export function Day({ day, waiting, isReached, isChanged, failure, link, onTell, onSeen,
-  onLanguage, onFlights }) {
+export function Day({ day, waiting, isReached, failure, link, onTell, onProve, onSeen, onLanguage,
+  onFlights }) {
   const [navigator_, setNavigator] = useState(
     chosenNavigator(localStorage, window.navigator.userAgent),
   );
@@ -57,13 +60,14 @@ export function Day({ day, waiting, isReached, isChanged, failure, link, onTell,
         isReached,
       )}</p>
       ${failure && html`<p role="alert" class="unsent">${failure}</p>`}
-      ${isChanged && html`<p role="alert" class="unsent">${t('day.changed')}
-        <button type="button" class="button" onClick=${onSeen}>${t('day.seen')}</button></p>`}
+      ${isOther(day.seen ?? day.steps, day.steps) && html`<${News} day=${day}
+        onSeen=${onSeen} />`}
     </header>
     ${!day.steps.length && html`<p class="note">${t('day.nothing')}</p>`}
     <ol class="steps">${day.steps.map(
       (step) => html`<${Step} key=${step.id} day=${day} step=${step} isNext=${step === next}
-        standing=${found.get(step.id)} navigator=${navigator_} link=${link} onTell=${onTell} />`,
+        standing=${found.get(step.id)} navigator=${navigator_} link=${link} onTell=${onTell}
+        onProve=${onProve} />`,
     )}</ol>
     <footer><${Breakdown} broken=${isBroken(found)}
       onTell=${(kind, reason) => onTell(VEHICLE, kind, reason)} />
@@ -74,6 +78,17 @@ export function Day({ day, waiting, isReached, isChanged, failure, link, onTell,
           selected=${name === navigator_}>${navigatorName(name)}</option>`,
       )}</select></label>
     <${LanguageChoice} onLanguage=${onLanguage} /></footer>`;
+}
+
+/** What is new since the driver looked, and what was taken away. */
+function News({ day, onSeen }) {
+  const { added, gone } = newsOf(day);
+  const listed = (name, steps) => steps.length > 0 && html`<dl><div><dt>${t(`day.${name}`)}</dt>
+    <dd>${steps.map((step) => `${titleOf(step)}, ${clock(day, step.arrival)}`).join('\n')}</dd>
+    </div></dl>`;
+  return html`<div role="alert" class="unsent">${t('day.changed')}
+    ${listed('added', added)}${listed('gone', gone)}
+    <button type="button" class="button" onClick=${onSeen}>${t('day.seen')}</button></div>`;
 }
 
 /** Flights of the vehicle's drones, to be loaded into what flies them. */
@@ -138,7 +153,7 @@ function sendingText(count, isReached) {
   return isReached ? t('day.sent') : t('day.offline');
 }
 
-function Step({ day, step, isNext, standing, navigator, link, onTell }) {
+function Step({ day, step, isNext, standing, navigator, link, onTell, onProve }) {
   const state = standing?.state ?? 'open';
   const [isOpen, setOpen] = useState(null);
   const shown = isOpen ?? isNext;
@@ -159,6 +174,8 @@ function Step({ day, step, isNext, standing, navigator, link, onTell }) {
           setOpen(null);
           onTell(step.id, kind, reason);
         }} />
+      ${step.kind === 'stop' && html`<${Proof} isKept=${day.proven?.includes(step.id)}
+        onProve=${(proof) => onProve(step.id, proof)} />`}
     </div>`}
   </li>`;
 }
@@ -237,6 +254,43 @@ function Actions({ link, step, state, reason, onTell }) {
   }
   return html`<${Failing} kind=${step.kind} text=${draft} onWrite=${write}
     onFail=${(told) => tell('failed', told)} />`;
+}
+
+/** Who took it, a photo and a signature: each may lack. */
+function Proof({ isKept, onProve }) {
+  const [isOpen, setOpen] = useState(false);
+  const form = useRef(null);
+  const canvas = useRef(null);
+  const [isSigned, setSigned] = useState(false);
+  useEffect(() => {
+    if (isOpen) drawOn(canvas.current, () => setSigned(true));
+  }, [isOpen]);
+  if (!isOpen) {
+    return html`${isKept && html`<p class="hint" role="note">${t('proof.kept')}</p>`}
+      <button type="button" class="button" onClick=${() => setOpen(true)}>
+        ${t('proof.begin')}</button>`;
+  }
+  const keep = async () => {
+    const [name, photo] = form.current.querySelectorAll('input');
+    const proof = {
+      name: name.value.trim(),
+      ...(photo.files[0] && { photo: await smallPhoto(photo.files[0]) }),
+      ...(isSigned && { signature: await signatureOf(canvas.current) }),
+    };
+    setOpen(false);
+    setSigned(false);
+    onProve(proof);
+  };
+  return html`<fieldset ref=${form}><legend>${t('proof.begin')}</legend>
+    <label>${t('proof.name')} <input type="text" maxlength="100" autocomplete="off" /></label>
+    <label>${t('proof.photo')}
+      <input type="file" accept="image/*" capture="environment" /></label>
+    <label>${t('proof.signature')} <canvas class="signature" ref=${canvas}></canvas></label>
+    <div class="actions">
+      <button type="button" class="button good" onClick=${keep}>${t('proof.keep')}</button>
+      <button type="button" class="button" onClick=${() => setOpen(false)}>
+        ${t('action.back')}</button>
+    </div></fieldset>`;
 }
 
 /** Why a step failed: one more tap tells a known reason, any other is written. */

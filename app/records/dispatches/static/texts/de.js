@@ -30,6 +30,8 @@ export default {
     offline: 'Kein Netz: Was Sie melden, bleibt auf diesem Telefon.',
     changed: 'Ihr Tag wurde geändert: Sehen Sie nach, was als Nächstes kommt.',
     seen: 'Gesehen',
+    added: 'Neu',
+    gone: 'Weggenommen',
     nothing: 'Für Sie ist nichts mehr geplant.',
   },
   flights: {
@@ -46,6 +48,14 @@ export default {
     sure: 'Kann Ihr Fahrzeug heute niemanden mehr beliefern?',
     yes: 'Panne melden',
     back: 'Zurück',
+  },
+  proof: {
+    begin: 'Zustellnachweis',
+    kept: 'Ein Nachweis ist da.',
+    name: 'Name des Empfängers',
+    photo: 'Foto',
+    signature: 'Unterschrift',
+    keep: 'Nachweis behalten',
   },
   title: {
     depart: 'Abfahrt {{place}}',

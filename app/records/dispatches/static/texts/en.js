@@ -25,6 +25,8 @@ export default {
     offline: 'No network: what you mark is kept on this phone.',
     changed: 'Your day was changed: look at what is next.',
     seen: 'I have seen it',
+    added: 'New',
+    gone: 'Taken away',
     nothing: 'Nothing is planned for you any more.',
   },
   flights: {
@@ -41,6 +43,14 @@ export default {
     sure: 'Can your vehicle serve nobody any more today?',
     yes: 'It has broken down',
     back: 'Back',
+  },
+  proof: {
+    begin: 'Proof of delivery',
+    kept: 'A proof is kept.',
+    name: 'Name of who took it',
+    photo: 'Photo',
+    signature: 'Signature',
+    keep: 'Keep the proof',
   },
   title: {
     depart: 'Leave {{place}}',
