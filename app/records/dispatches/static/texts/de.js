@@ -31,7 +31,7 @@ export default {
     changed: 'Ihr Tag wurde geändert: Sehen Sie nach, was als Nächstes kommt.',
     seen: 'Gesehen',
     added: 'Neu',
-    gone: 'Weggenommen',
+    gone: 'Entfällt',
     nothing: 'Für Sie ist nichts mehr geplant.',
   },
   flights: {
