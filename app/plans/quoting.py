@@ -18,9 +18,11 @@ from app.requests.conversion.units import thousandths
 from app.schemas.quote import QuoteReply, QuoteRequest, SlotInput
 from app.serving.load.received import ReceivedBody
 from model.counsel.bench import Bench
-from model.counsel.fitting import find_cheapest, new_violations
-from model.problem import Problem
+from model.counsel.fitting import Fit, new_violations
+from model.counsel.slots import find_slots, view_of
+from model.problem import Customer
 from model.problem.quantities import UNLIMITED
+from model.replanning.seen import seen
 
 
 def answer_quote(body: ReceivedBody, bounds: Bounds,
@@ -43,17 +45,19 @@ def answer_quote(body: ReceivedBody, bounds: Bounds,
     judged = task.judge_routes(solution)
     require_readable(task.setting.judge(task.judged_problem, solution, judged))
     bench = bench_of(task, request.asked, solution, judged)
-    slots = [_quoted(bench, slot) for slot in request.slots]
+    node = bench.node if bench.shipment is None else bench.shipment.delivery
+    customers = [_within(bench.problem.customer_at(node), slot) for slot in request.slots]
+    view = view_of(bench) if task.replanning is None else seen(task.replanning, bench)
+    slots = [_quoted(bench, slot, best) for slot, best in zip(
+        request.slots, find_slots(bench, customers, view), strict=True)]
     costs = [(each["cost"], index) for index, each in enumerate(slots) if each["feasible"]]
     reply: Data = {"slots": slots, "best": min(costs)[1] if costs else None}
     task.telling.tell(QuoteReply, reply)
     return to_json(reply)
 
 
-def _quoted(bench: Bench, slot: SlotInput) -> Data:
-    """Return what a slot would cost."""
-    node = bench.node if bench.shipment is None else bench.shipment.delivery
-    best = find_cheapest(bench.under(_within(bench.problem, node, slot)))
+def _quoted(bench: Bench, slot: SlotInput, best: Fit | None) -> Data:
+    """Return what a slot would cost at the best place."""
     reply: Data = {"earliest": slot.earliest, "latest": slot.latest, "by": slot.by,
                    "feasible": False, "cost": None, "of_which_future": None, "vehicle": None,
                    "arrival": None, "why": []}
@@ -67,12 +71,9 @@ def _quoted(bench: Bench, slot: SlotInput) -> Data:
                     "vehicle": placed["vehicle"], "arrival": placed["service_start"]}
 
 
-def _within(problem: Problem, node: int, slot: SlotInput) -> Problem:
-    """Return a problem with the slot for a customer's windows."""
-    index = node - problem.num_depots
-    customer = replace(
-        problem.customers[index], earliest=thousandths(slot.earliest),
+def _within(customer: Customer, slot: SlotInput) -> Customer:
+    """Return a customer with the slot for his windows."""
+    return replace(
+        customer, earliest=thousandths(slot.earliest),
         latest=UNLIMITED if slot.latest is None else thousandths(slot.latest), gaps=(),
         served_by=slot.by)
-    return replace(problem, customers=(*problem.customers[:index], customer,
-                                       *problem.customers[index + 1:]))

@@ -90,26 +90,6 @@ def find_fits(bench: Bench, count: int, until: float = math.inf,
                    spot, all(each.is_complete for each in found))
 
 
-def find_cheapest(bench: Bench) -> Fit | None:
-    """Return the best place, as `find_fits` does; sooner, where the search sees all places."""
-    places = bench.problem.places_of(bench.node)
-    if is_seen_by_search(bench.problem) and all(place == bench.node for place in places):
-        routes = bench.left_out.solution.routes
-        used = {Vehicle(route.vehicle_type, route.vehicle) for route in routes}
-        offers = [offer for some in (bench.offers() or {}).values() for offer in some
-                  if not is_here(bench, offer.place)]
-        others, _ = try_places(bench, math.inf, lambda vehicle: vehicle not in used, FEW_TRIES)
-        drafts = [*[bench.draft(offer.place) for offer in
-                    sorted(offers, key=lambda offer: offer.cost)[:1]],
-                  *chain.from_iterable(others.values())]
-        legal = [draft for draft in drafts if not draft.timed.judged.violations]
-        if offers and legal:
-            trial = bench.finish(min(legal, key=lambda draft: draft.rank))
-            if not new_violations(bench, trial):
-                return Fit(bench, trial)
-    return next(iter(find_fits(bench, 1).places), None)
-
-
 def _fits_at(bench: Bench, count: int, until: float,
              spot: Callable[[Place], tuple[object, ...]]) -> Fits:
     """Return the best places where the customer is served at one place of his."""

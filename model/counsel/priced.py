@@ -57,6 +57,16 @@ def legal_offers(problem: Problem, solution: Solution, nodes: Sequence[int], unt
     return found
 
 
+def slot_offers(problem: Problem, solution: Solution,
+                nodes: Sequence[int]) -> list[list[Offer]]:
+    """Return the legal places of each of some customers, the cheapest first, as if alone."""
+    prices, routes = PlacePrices(problem, solution), [*map(_OnRoute, solution.routes)]
+    return [sorted([Offer(priced.cost, place) for index in prices.routes
+                    for priced in prices.places(node, index)
+                    if (place := routes[index].place(priced.placements, (node,))) is not None],
+                   key=lambda offer: offer.cost) for node in nodes]
+
+
 def is_seen_by_search(problem: Problem) -> bool:
     """Tell whether the search sees each place that the judge finds legal, and what it costs.
 

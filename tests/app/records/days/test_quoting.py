@@ -51,15 +51,19 @@ def cheapest(client: httpx.Client, problem: Data, plan: Data, slot: Data) -> flo
     return min(allowed, default=None)
 
 
+@pytest.mark.parametrize("now", [None, 250, 700])
 @pytest.mark.parametrize("seed", seeds(9))
-def test_slot_costs_what_its_cheapest_place_does(service: httpx.Client, seed: int) -> None:
+def test_slot_costs_what_its_cheapest_place_does(service: httpx.Client, seed: int,
+                                                 now: float | None) -> None:
     draw = random.Random(seed)
     plan = service.post("/plan", json={**PROBLEM, "replan": {"plan": {"routes": []}}}).json()
+    problem = PROBLEM if now is None else {
+        **PROBLEM, "replan": {"plan": plan, "freeze_before": now}}
     slots = [{"earliest": (begin := draw.randrange(0, 2000)), "latest": begin + length}
              for length in (0, 60, 600, 3000)] + [{"by": "drone"}]
-    reply = service.post("/quote", json={"problem": PROBLEM, "plan": plan, "order": NEW,
+    reply = service.post("/quote", json={"problem": problem, "plan": plan, "order": NEW,
                                          "slots": slots}).json()
-    costs = [cheapest(service, PROBLEM, plan, slot) for slot in slots]
+    costs = [cheapest(service, problem, plan, slot) for slot in slots]
     assert [each["cost"] for each in reply["slots"]] == costs
     assert [each["feasible"] for each in reply["slots"]] == [cost is not None for cost in costs]
     kept = [index for index, cost in enumerate(costs) if cost is not None]

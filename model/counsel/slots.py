@@ -1,0 +1,152 @@
+"""The cheapest place of a customer under other windows of his, one after another.
+
+The search prices the places of all slots at once, on the plan as it sees it. The judge says of the
+cheapest of each whether it is legal and what it costs.
+"""
+
+from collections import Counter
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from model.counsel.alternatives import try_places
+from model.counsel.bench import MOST_LEGS, Bench, Drafted
+from model.counsel.fitting import Fit, find_fits, new_violations
+from model.counsel.priced import Offer, is_seen_by_search, slot_offers
+from model.judge.past import EVERYTHING_OPEN, Vehicle
+from model.judge.places import Place
+from model.problem import MM_PER_KM, Customer, Problem
+from model.solution import Solution
+
+TRIED = 3
+"""Places of a slot that are judged, the cheapest first, if the judge refuses the one before; and
+vehicles on whose routes it is looked why there is none."""
+
+
+@dataclass(frozen=True)
+class View:
+    """A plan as the search sees it: what is left of it, if some has happened.
+
+    It doesn't have the customer at `node`.
+    """
+
+    problem: Problem
+    solution: Solution
+    node: int
+    kinds: Sequence[int]  # types that may begin trips
+    whole: Callable[[Place], Place | None]  # a place of the plan as a whole; None: there is none
+
+
+def view_of(bench: Bench) -> View | None:
+    """Return how the search sees a plan of which nothing has happened; None: something has."""
+    if bench.setting.past != EVERYTHING_OPEN:
+        return None
+    return View(bench.problem, bench.left_out.solution, bench.node,
+                range(len(bench.problem.vehicle_types)), lambda place: place)
+
+
+def find_slots(bench: Bench, slots: Sequence[Customer], view: View | None) -> Iterator[Fit | None]:
+    """Yield the cheapest place of each slot, as `find_fits` does; None: there is no vehicle.
+
+    Parameters
+    ----------
+    bench
+        Tries the customer, or shipment, whom the plan leaves out.
+    slots
+        The customer as he would be; of a shipment its delivery.
+    view
+        The plan as the search sees it; None: it isn't asked.
+    """
+    node = bench.node if bench.shipment is None else bench.shipment.delivery
+    benches = [bench.under(_with(bench.problem, node, each)) for each in slots]
+    if view is None or not _is_seen(bench, view):
+        yield from [next(iter(find_fits(each, 1).places), None) for each in benches]
+        return
+    for each, offers in zip(benches, _offers(view, slots), strict=True):
+        yield _judged(each, view, offers) or _refused(each, view)
+
+
+def _is_seen(bench: Bench, view: View) -> bool:
+    """Tell whether the search sees all places, and takes little time to be asked."""
+    problem = bench.problem
+    return (bench.shipment is None and len(problem.places_of(bench.node)) == 1
+            and is_seen_by_search(view.problem) and not problem.fairness.is_stated
+            and view.problem.num_nodes**2 * len(problem.travel) <= MOST_LEGS)
+
+
+def _with(problem: Problem, node: int, customer: Customer) -> Problem:
+    index = node - problem.num_depots
+    return replace(problem, customers=(*problem.customers[:index], customer,
+                                       *problem.customers[index + 1:]))
+
+
+def _offers(view: View, slots: Sequence[Customer]) -> list[list[Offer]]:
+    """Return the places of each slot on routes, the cheapest first, by one search for all."""
+    problem, own = view.problem, view.node
+    index = own - problem.num_depots
+    nodes = [own, *range(problem.num_nodes, problem.num_nodes + len(slots) - 1)]
+    at = np.array([*range(problem.num_nodes), *[own] * (len(slots) - 1)])
+    columns = at[problem.num_depots:] - problem.num_depots
+    customers = [*problem.customers]
+    customers[index] = slots[0]
+    many = replace(
+        problem, customers=(*customers, *slots[1:]), coordinates=problem.coordinates[at],
+        travel=tuple([each.among(at) for each in problem.travel]),
+        may_serve=None if problem.may_serve is None else problem.may_serve[:, columns],
+        vehicle_costs=None if problem.vehicle_costs is None else problem.vehicle_costs[:, columns])
+    solution = replace(view.solution, unassigned=(*view.solution.unassigned, *nodes[1:]))
+    return slot_offers(many, solution, nodes)
+
+
+def _judged(bench: Bench, view: View, offers: Sequence[Offer]) -> Fit | None:
+    """Return the best place that the judge finds legal, on a route or with a vehicle more."""
+    drafts = list[Drafted]()
+    for offer in offers[:TRIED]:
+        place = view.whole(offer.place)
+        if place is not None:
+            drafts.append(bench.draft(place))
+            if not drafts[-1].timed.judged.violations:
+                break
+    least = min([each.added for each in drafts if not each.timed.judged.violations],
+                default=float("inf"))
+    drafts += [bench.draft(place) for place, bound in _spare(bench, view) if bound < least]
+    for draft in sorted(drafts, key=lambda draft: draft.rank):
+        if draft.timed.judged.violations:
+            break
+        trial = bench.finish(draft)
+        if not new_violations(bench, trial):
+            return Fit(bench, trial)
+    return None
+
+
+def _spare(bench: Bench, view: View) -> Iterator[tuple[Place, float]]:
+    """Yield the places of vehicles that have no route, one of each type, and their least cost."""
+    problem, node = view.problem, view.node
+    used = Counter(route.vehicle_type for route in view.solution.routes)
+    taken = {(route.vehicle_type, route.vehicle) for route in view.solution.routes}
+    for index in view.kinds:
+        kind = problem.vehicle_types[index]
+        if used[index] >= kind.count:
+            continue
+        number = next(each for each in range(kind.count) if (index, each) not in taken)
+        place = view.whole(Place(Vehicle(index, number), 0, "truck", 1, own_trip=True))
+        distance = problem.travel[kind.travel].distance
+        way = int(distance[kind.begins_at, node]) + int(distance[node, kind.ends_at])
+        if place is not None and problem.allows(index, node):
+            yield place, kind.fixed_cost + way * kind.cost_per_km / MM_PER_KM
+
+
+def _refused(bench: Bench, view: View) -> Fit | None:
+    """Return a place that breaks fewest rules of those on the nearest routes, or a new one."""
+    solution = bench.left_out.solution
+    distance = bench.problem.travel[0].distance
+    near = sorted((min([int(distance[stop.node, bench.node]) for trip in route.trips
+                        for stop in trip.stops]), route.vehicle_type, route.vehicle)
+                  for route in solution.routes)[:TRIED]
+    vehicles = {Vehicle(kind, number) for _, kind, number in near}
+    drafts = [bench.draft(place) for place, _ in _spare(bench, view)]
+    tried, _ = try_places(bench, float("inf"), lambda vehicle: vehicle in vehicles, TRIED)
+    drafts += [draft for some in tried.values() for draft in some]
+    best = min(drafts, key=lambda draft: draft.rank, default=None)
+    return None if best is None else Fit(bench, bench.finish(best))

@@ -1,0 +1,51 @@
+"""How the search sees a plan that is under way: what is left of it, as a plan of its own."""
+
+from collections import Counter
+
+from model.counsel.bench import Bench
+from model.counsel.slots import View
+from model.judge.past import Vehicle
+from model.judge.places import Place
+from model.replanning.handover import hand_over
+from model.replanning.kept import Kept
+from model.replanning.replan import Replanning
+
+
+def seen(replanning: Replanning, bench: Bench) -> View | None:
+    """Return what is left of a plan without a customer; None: nothing, or nobody may begin a trip.
+    """
+    left, plan = replanning.left, bench.left_out.solution
+    if left is None or bench.node not in left.numbers:
+        return None
+    kept = {each.vehicle: each for each in replanning.kept}
+    known, used = dict[Vehicle, Vehicle](), Counter[int]()
+    for route in plan.routes:
+        vehicle = Vehicle(route.vehicle_type, route.vehicle)
+        kind = left.later(vehicle)
+        if kind is not None and len(route.trips) > _begun(kept, vehicle):
+            known[Vehicle(kind, used[kind])] = vehicle
+            used[kind] += 1
+    taken = {*kept, *replanning.past.unavailable, *(
+        Vehicle(route.vehicle_type, route.vehicle) for route in plan.routes)}
+
+    def whole(place: Place) -> Place | None:
+        kind = place.vehicle.type
+        worker = left.workers.get(kind)
+        vehicle = known.get(place.vehicle) or (None if worker is None else worker.vehicle)
+        if vehicle is None:
+            own = left.kinds[kind]
+            vehicle = next((Vehicle(own, number)
+                            for number in range(bench.problem.vehicle_types[own].count)
+                            if Vehicle(own, number) not in taken), None)
+        return None if vehicle is None else place._replace(
+            vehicle=vehicle, trip=place.trip + _begun(kept, vehicle))
+
+    kinds = [kind for kind in range(len(left.kinds))
+             if not (kind in left.workers and left.workers[kind].is_under_way)]
+    return View(left.problem, hand_over(replanning.problem, plan, kept, left),
+                left.numbers[bench.node], kinds, whole)
+
+
+def _begun(kept: dict[Vehicle, Kept], vehicle: Vehicle) -> int:
+    """Return how many trips a vehicle has begun."""
+    return len(kept[vehicle].route.trips) if vehicle in kept else 0
