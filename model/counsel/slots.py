@@ -25,7 +25,7 @@ vehicles on whose routes it is looked why there is none."""
 
 
 @dataclass(frozen=True)
-class View:
+class SearchedPlan:
     """A plan as the search sees it: what is left of it, if some has happened.
 
     It doesn't have the customer at `node`.
@@ -38,15 +38,15 @@ class View:
     whole: Callable[[Place], Place | None]  # a place of the plan as a whole; None: there is none
 
 
-def view_of(bench: Bench) -> View | None:
+def view_of(bench: Bench) -> SearchedPlan | None:
     """Return how the search sees a plan of which nothing has happened; None: something has."""
     if bench.setting.past != EVERYTHING_OPEN:
         return None
-    return View(bench.problem, bench.left_out.solution, bench.node,
+    return SearchedPlan(bench.problem, bench.left_out.solution, bench.node,
                 range(len(bench.problem.vehicle_types)), lambda place: place)
 
 
-def find_slots(bench: Bench, slots: Sequence[Customer], view: View | None) -> Iterator[Fit | None]:
+def find_slots(bench: Bench, slots: Sequence[Customer], view: SearchedPlan | None) -> Iterator[Fit | None]:
     """Yield the cheapest place of each slot, as `find_fits` does; None: there is no vehicle.
 
     Parameters
@@ -67,7 +67,7 @@ def find_slots(bench: Bench, slots: Sequence[Customer], view: View | None) -> It
         yield _judged(each, view, offers) or _refused(each, view)
 
 
-def _is_seen(bench: Bench, view: View) -> bool:
+def _is_seen(bench: Bench, view: SearchedPlan) -> bool:
     """Tell whether the search sees all places, and takes little time to be asked."""
     problem = bench.problem
     return (bench.shipment is None and len(problem.places_of(bench.node)) == 1
@@ -81,7 +81,7 @@ def _with(problem: Problem, node: int, customer: Customer) -> Problem:
                                        *problem.customers[index + 1:]))
 
 
-def _offers(view: View, slots: Sequence[Customer]) -> list[list[Offer]]:
+def _offers(view: SearchedPlan, slots: Sequence[Customer]) -> list[list[Offer]]:
     """Return the places of each slot on routes, the cheapest first, by one search for all."""
     problem, own = view.problem, view.node
     index = own - problem.num_depots
@@ -99,7 +99,7 @@ def _offers(view: View, slots: Sequence[Customer]) -> list[list[Offer]]:
     return slot_offers(many, solution, nodes)
 
 
-def _judged(bench: Bench, view: View, offers: Sequence[Offer]) -> Fit | None:
+def _judged(bench: Bench, view: SearchedPlan, offers: Sequence[Offer]) -> Fit | None:
     """Return the best place that the judge finds legal, on a route or with a vehicle more."""
     drafts = list[Drafted]()
     for offer in offers[:TRIED]:
@@ -120,7 +120,7 @@ def _judged(bench: Bench, view: View, offers: Sequence[Offer]) -> Fit | None:
     return None
 
 
-def _spare(bench: Bench, view: View) -> Iterator[tuple[Place, float]]:
+def _spare(bench: Bench, view: SearchedPlan) -> Iterator[tuple[Place, float]]:
     """Yield the places of vehicles that have no route, one of each type, and their least cost."""
     problem, node = view.problem, view.node
     used = Counter(route.vehicle_type for route in view.solution.routes)
@@ -137,7 +137,7 @@ def _spare(bench: Bench, view: View) -> Iterator[tuple[Place, float]]:
             yield place, kind.fixed_cost + way * kind.cost_per_km / MM_PER_KM
 
 
-def _refused(bench: Bench, view: View) -> Fit | None:
+def _refused(bench: Bench, view: SearchedPlan) -> Fit | None:
     """Return a place that breaks fewest rules of those on the nearest routes, or a new one."""
     solution = bench.left_out.solution
     distance = bench.problem.travel[0].distance

@@ -3,7 +3,7 @@
 from collections import Counter
 
 from model.counsel.bench import Bench
-from model.counsel.slots import View
+from model.counsel.slots import SearchedPlan
 from model.judge.past import Vehicle
 from model.judge.places import Place
 from model.replanning.handover import hand_over
@@ -11,7 +11,7 @@ from model.replanning.kept import Kept
 from model.replanning.replan import Replanning
 
 
-def seen(replanning: Replanning, bench: Bench) -> View | None:
+def seen(replanning: Replanning, bench: Bench) -> SearchedPlan | None:
     """Return what is left of a plan without a customer; None: nothing, or nobody may begin a trip.
     """
     left, plan = replanning.left, bench.left_out.solution
@@ -42,7 +42,7 @@ def seen(replanning: Replanning, bench: Bench) -> View | None:
 
     kinds = [kind for kind in range(len(left.kinds))
              if not (kind in left.workers and left.workers[kind].is_under_way)]
-    return View(left.problem, hand_over(replanning.problem, plan, kept, left),
+    return SearchedPlan(left.problem, hand_over(replanning.problem, plan, kept, left),
                 left.numbers[bench.node], kinds, whole)
 
 
