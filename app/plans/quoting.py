@@ -14,7 +14,7 @@ from app.plans.replies import Data
 from app.plans.task import task_of
 from app.plans.timing import timed_plan
 from app.requests.bounds import Bounds
-from app.requests.conversion.units import thousandths
+from app.requests.conversion.units import money, thousandths
 from app.schemas.quote import QuoteReply, QuoteRequest, SlotInput
 from app.serving.load.received import ReceivedBody
 from model.counsel.bench import Bench
@@ -48,16 +48,19 @@ def answer_quote(body: ReceivedBody, bounds: Bounds,
     node = bench.node if bench.shipment is None else bench.shipment.delivery
     customers = [_within(bench.problem.customer_at(node), slot) for slot in request.slots]
     view = view_of(bench) if task.replanning is None else seen(task.replanning, bench)
-    slots = [_quoted(bench, slot, best) for slot, best in zip(
-        request.slots, find_slots(bench, customers, view), strict=True)]
+    future: list[float | None] = [None] * len(customers)
+    if task.waves is not None and bench.shipment is None:
+        future = task.waves.future_costs(task.judged_problem, task.replanning, node, customers)
+    slots = [_quoted(bench, slot, best, more) for slot, best, more in zip(
+        request.slots, find_slots(bench, customers, view), future, strict=True)]
     costs = [(each["cost"], index) for index, each in enumerate(slots) if each["feasible"]]
     reply: Data = {"slots": slots, "best": min(costs)[1] if costs else None}
     task.telling.tell(QuoteReply, reply)
     return to_json(reply)
 
 
-def _quoted(bench: Bench, slot: SlotInput, best: Fit | None) -> Data:
-    """Return what a slot would cost at the best place."""
+def _quoted(bench: Bench, slot: SlotInput, best: Fit | None, future: float | None) -> Data:
+    """Return what a slot would cost at the best place, and more for what may come."""
     reply: Data = {"earliest": slot.earliest, "latest": slot.latest, "by": slot.by,
                    "feasible": False, "cost": None, "of_which_future": None, "vehicle": None,
                    "arrival": None, "why": []}
@@ -67,7 +70,9 @@ def _quoted(bench: Bench, slot: SlotInput, best: Fit | None) -> Data:
     if broken:
         return reply | {"why": rules_reply(broken)}
     placed = placed_reply(best.bench, best.trial, best.companions)
-    return reply | {"feasible": True, "cost": more_than_without(best.bench, best.trial)["total"],
+    cost = more_than_without(best.bench, best.trial)["total"]
+    more = None if future is None else money(future)
+    return reply | {"feasible": True, "cost": cost + (more or 0.0), "of_which_future": more,
                     "vehicle": placed["vehicle"], "arrival": placed["service_start"]}
 
 

@@ -17,12 +17,13 @@ from app.maps.roads.roads import Roads
 from app.schemas.forecast import ComingInput
 from model.judge.rules import seconds
 from model.planner import Listener, Planner, PlanOptions, PlanResult
-from model.problem import Problem, VehicleType
+from model.problem import Customer, Problem, VehicleType
 from model.replanning.remainder import held_back
 from model.replanning.replan import Replanning
 from model.search.waves.decide import Outlook, WaveConfig, decide
 from model.search.waves.forecasts import AreaRate, PastOrder, by_past_days, by_rates
 from model.search.waves.future import Forecast, Wave
+from model.search.waves.opportunity import future_costs
 from model.solution import Solution
 
 DECIDING = 0.4
@@ -30,6 +31,9 @@ DECIDING = 0.4
 
 PLANNING = 0.85
 """Share of the time limit after which those leave now whom no later trip could take."""
+
+QUOTED = WaveConfig(futures=6, seconds=0.3)
+"""How far it is looked ahead for a quote, whose slots share the futures."""
 
 TURNS_SHARE = 60
 """Of the turns asked for, one in so many is made in each future."""
@@ -88,21 +92,44 @@ class Waves:
         Nodes are those of the problem.
         """
         now = 0 if replanning is None else replanning.past.now
-        departures = self._departures(now)
-        first, ahead = problem.num_depots, self.problem.num_depots - problem.num_depots
-        nodes = _free(problem, replanning)
-        kinds = self._types(problem, replanning)
-        if not nodes or not kinds:
+        wave, ahead = self._wave(problem, replanning), self._ahead(problem)
+        if wave is None:
             return ()
-        wave = Wave(self._with(kinds), tuple([node + ahead for node in nodes]), departures,
-                    departures[-1] + self._every < self._latest)
         config = WaveConfig(seed=options.seed, seconds=DECIDING * options.time_limit)
         if options.search_iterations is not None:
             turns = max(1, options.search_iterations // TURNS_SHARE)
             config = replace(config, seconds=math.inf, turns=turns, last_turns=turns)
-        found = decide(wave, self._forecast(now, departures[-1]), config)
-        return tuple([replace(each, node=each.node - ahead) for each in found.outlooks
-                      if each.node - ahead >= first])
+        found = decide(wave, self._forecast(now, wave.departures[-1]), config)
+        return tuple([replace(each, node=each.node - ahead) for each in found.outlooks])
+
+    def future_costs(self, problem: Problem, replanning: Replanning | None, node: int,
+                     slots: Sequence[Customer]) -> list[float | None]:
+        """Return what a customer of the problem costs for what may come, slot by slot.
+
+        None: nothing is forecast, or no truck comes there in time.
+        """
+        now = 0 if replanning is None else replanning.past.now
+        wave, own = self._wave(problem, replanning, node), node + self._ahead(problem)
+        forecast = None if wave is None else self._forecast(now, wave.departures[-1])
+        if wave is None or forecast is None:
+            return [None] * len(slots)
+        costs = future_costs(wave, own, slots, forecast, QUOTED)
+        return [cost if math.isfinite(cost) else None for cost in costs.tolist()]
+
+    def _ahead(self, problem: Problem) -> int:
+        """Return by how much nodes of customers are higher here than in a problem."""
+        return self.problem.num_depots - problem.num_depots
+
+    def _wave(self, problem: Problem, replanning: Replanning | None,
+              but: int | None = None) -> Wave | None:
+        """Return the orders that are open, but for one; None: none is, or no vehicle is there."""
+        departures = self._departures(0 if replanning is None else replanning.past.now)
+        nodes = [node for node in _free(problem, replanning) if node != but]
+        kinds, ahead = self._types(problem, replanning), self._ahead(problem)
+        if not nodes or not kinds:
+            return None
+        return Wave(self._with(kinds), tuple([node + ahead for node in nodes]), departures,
+                    departures[-1] + self._every < self._latest)
 
     def _held(self, now: int) -> dict[int, int]:
         """Return until when customers wait, by node, who do so."""

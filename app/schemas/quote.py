@@ -95,10 +95,11 @@ class SlotReply(_Reply):
     by: By = Field(description="As it was asked.")
     feasible: bool = Field(description="Whether it can be kept.")
     cost: float | None = Field(
-        description="What the plan costs more, others staying with their vehicles in their order. "
-        "Null: it can't be kept.")
+        description="What the plan costs more, others staying with their vehicles in their order, "
+        "and `of_which_future`. Null: it can't be kept.")
     of_which_future: float | None = Field(
-        None, description="What it takes from orders to come. Null: nothing is known of them.")
+        None, description="What it takes from orders to come, by the problem's `forecast`; "
+        "negative where it rides along with them. Null: nothing is known of them.")
     vehicle: str | None = Field(None, description="Who would serve it.")
     arrival: InstantReply | None = Field(None, description="When.")
     why: list[RuleReply] = Field([], description="Rules that forbid it.")

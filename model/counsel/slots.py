@@ -46,7 +46,8 @@ def view_of(bench: Bench) -> SearchedPlan | None:
                 range(len(bench.problem.vehicle_types)), lambda place: place)
 
 
-def find_slots(bench: Bench, slots: Sequence[Customer], view: SearchedPlan | None) -> Iterator[Fit | None]:
+def find_slots(bench: Bench, slots: Sequence[Customer],
+               view: SearchedPlan | None) -> Iterator[Fit | None]:
     """Yield the cheapest place of each slot, as `find_fits` does; None: there is no vehicle.
 
     Parameters

@@ -90,7 +90,7 @@ def must_leave(wave: Wave) -> frozenset[int]:
     if len(wave.departures) == 1:
         return frozenset(may_leave)
     soon = future_of(replace(wave, departures=wave.departures[1:2]), ())
-    plan = _search(soon.problem, WaveConfig(), 0, 0, math.inf)
+    plan = plan_future(soon.problem, WaveConfig(), 0, 0, math.inf)
     return frozenset(map(soon.node_of, plan.unassigned)) & may_leave
 
 
@@ -137,7 +137,7 @@ def _look(wave: Wave, forecast: Forecast, config: WaveConfig, number: int,
     due = time.perf_counter() + seconds
     rng = np.random.default_rng((config.seed, number))
     future = future_of(wave, forecast(rng))
-    plan = _search(future.problem, config, config.turns, number, due - time.perf_counter())
+    plan = plan_future(future.problem, config, config.turns, number, due - time.perf_counter())
     routes = [route for route in plan.routes if route.vehicle_type in future.later_types]
     leaves = {node: future.departure_of(route.vehicle_type) for route in plan.routes
               for node in customers_of(route)}
@@ -171,12 +171,12 @@ def _collect(wave: Wave, must: Set[int], prices: Mapping[int, float], config: Wa
         else replace(customer, unassigned_cost=prices[node])
         for node, customer in zip(going, future.problem.customers, strict=True)])
     priced = replace(future.problem, customers=customers)
-    plan = renumbered(_search(priced, config, config.last_turns, 0, seconds), future.node_of)
+    plan = renumbered(plan_future(priced, config, config.last_turns, 0, seconds), future.node_of)
     return replace(plan, unassigned=tuple([node for node in plan.unassigned if node in must]))
 
 
-def _search(problem: Problem, config: WaveConfig, turns: int, number: int,
-            seconds: float) -> Solution:
+def plan_future(problem: Problem, config: WaveConfig, turns: int, number: int,
+                seconds: float) -> Solution:
     """Plan from nothing, by turns, or until a time is over if it is limited."""
     limited = seconds < math.inf
     deadline = time.perf_counter() + seconds if limited else None

@@ -101,6 +101,22 @@ def test_whoever_no_later_trip_could_take_leaves_now(service: httpx.Client,
     assert {leaves for leaves, _ in outlook(plan).values()} == {True}
 
 
+@pytest.mark.parametrize(("came", "future"), [(-9, [0, -18]), (9, [0, 0])])
+def test_quote_knows_what_rides_along_with_orders_to_come(
+        service: httpx.Client, street: Data, came: float, future: list[float]) -> None:
+    street["customers"] = [order("easy", 9)]
+    street.pop("forecast")
+    plan = planned(service, street)
+    street["forecast"] = {"past_days": [[order("came", came, placed_at=2000)]]}
+    slots = [{"latest": 3000}, {"earliest": 4000, "latest": 6000}, {"by": "drone"}]
+    reply = service.post("/quote", json={
+        "problem": street, "plan": plan, "order": order("new", -9.5), "slots": slots}).json()
+    assert [each["of_which_future"] for each in reply["slots"]] == pytest.approx([*future, None])
+    assert [each["cost"] for each in reply["slots"]] == pytest.approx(
+        [19 + future[0], 19 + future[1], None])
+    assert reply["best"] == (1 if came < 0 else 0)
+
+
 def test_what_is_wrong_with_a_forecast_is_told_where_it_is(service: httpx.Client,
                                                           street: Data) -> None:
     street["forecast"]["past_days"] = [[], [order("came", -9) | {"demand": [1, 2]}]]

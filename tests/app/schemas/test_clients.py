@@ -121,8 +121,8 @@ def test_generated_client_plans_and_follows_a_job(
     assert made.returncode == 0, made.stdout
     # It has no type for pictures.
     warned = "".join(sorted(re.findall(r"^WARNING.*", made.stdout, re.MULTILINE)))
-    assert re.findall("/picture|/plan.svg", warned) == ["/plan.svg", "/picture"]
-    assert warned.count("WARNING") == 2
+    assert re.findall("/picture|/plan.svg|/proofs", warned) == ["/proofs", "/plan.svg", "/picture"]
+    assert warned.count("WARNING") == 3
     (tmp_path / "request.json").write_text(json.dumps(smallest))
     printed = run([sys.executable, "-", str(server.client.base_url)], SCRIPT, tmp_path,
                   Visitor(server, None))
