@@ -1,20 +1,20 @@
 """Plans chosen against the lateness that is to be expected, where that has a price.
 
-The search knows no chances. Round by round, some windows that are likely to be missed end sooner
-for it, and it goes on from the best plan so far. Where that is cheaper with the lateness to be
-expected, by the windows as they are stated, plan and windows stay.
+The search knows no chances. Round by round, one or some of the windows that are likely to be missed
+end sooner for it, and it goes on from the best plan so far. Where that is cheaper with the lateness
+to be expected, by the windows as they are stated, plan and windows stay; else others are next.
 """
 
-import math
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, replace
 from functools import partial
 
 from model.counsel.lateness.drawn import Spread
 from model.counsel.lateness.outlook import expectations, late_hours
 from model.judge.check import Evaluation, judge_route
-from model.judge.retiming import read_route
-from model.judge.timing import schedule
+from model.judge.past import EVERYTHING_OPEN
+from model.judge.retiming import read_route, time_route
+from model.judge.timing import RouteDecision
 from model.planner import Listener, PlanCheckError, Planner, PlanOptions, PlanResult
 from model.problem import Problem
 from model.replanning.amend import repaired_route
@@ -22,15 +22,17 @@ from model.replanning.refusing import SettledPartError
 from model.replanning.replan import Replanning, Terms
 from model.solution import Route, Solution
 
-FIRST_SHARE = 0.4
-"""Of the time limit, for the plan by the windows as they are."""
+FIRST_SHARE = 0.5
+"""Of the time limit, for the plan without a price."""
 
-TRIED = tuple((share, buffer) for share in (1.0, 0.3, 0.1) for buffer in (0.5, 1.0, 1.6))
-"""How many of the customers with the most lateness to be expected have windows that end sooner, and
-by how many standard deviations of their start of service, round by round."""
+ROUNDS, LEAST_ROUND = 20, 0.1
+"""How many there are at most, and the seconds that each has at least."""
 
-LEAST_ROUND = 0.15
-"""Seconds that a round has at least: the fewer there are."""
+TOGETHER = (1, 3)
+"""How many windows end sooner at once, round by round in turns."""
+
+BUFFER = 1.3
+"""By how many standard deviations of the start of service."""
 
 COOLED = 0.6
 """Of the search's cooling, from the second plan on."""
@@ -78,36 +80,37 @@ class RiskSearch:
              further: Further) -> PlanResult:
         """Return the cheapest plan; raises as `plan` does."""
         results = [plan(_part(options, FIRST_SHARE), listener)]
-        best, sooner = self._priced(results[0]), dict[int, int]()
-        quiet = Listener(listener.should_stop)
-        rounds = self._rounds(options)
-        share = (1 - FIRST_SHARE) / len(rounds)
-        for number, (among, buffer) in enumerate(rounds, 1):
-            if not best.cost > best.result.evaluation.cost.total or listener.should_stop():
+        best, sooner, passed = self._priced(results[0]), dict[int, int](), 0
+        quiet, rounds = Listener(listener.should_stop), self._rounds(options)
+        share = (1 - FIRST_SHARE) / rounds
+        for number in range(rounds):
+            buffers = self._buffers(best.result.solution)
+            if not buffers or listener.should_stop():
                 break
-            tried = sooner | self._buffers(best.result.solution, among, buffer)
-            until = replace(_part(options, FIRST_SHARE + number * share, share), cooled=COOLED)
+            first = passed % len(buffers)
+            tried = sooner | dict(buffers[first:first + TOGETHER[number % len(TOGETHER)]])
+            until = _part(options, FIRST_SHARE + (number + 1) * share, share)
             other = self._other(best.result, self._ending(tried), until, quiet, further)
+            passed += 1
             if other is not None:
                 results.append(other.result)
                 if other.cost < best.cost:
-                    best, sooner = other, tried
+                    best, sooner, passed = other, tried, 0
         return replace(best.result,
                        search_iterations=sum(each.search_iterations for each in results),
                        deterministic=all(each.deterministic for each in results),
                        decoded_cost=results[0].decoded_cost, start=results[0].start)
 
-    def _rounds(self, options: PlanOptions) -> Sequence[tuple[float, float]]:
+    def _rounds(self, options: PlanOptions) -> int:
         if options.search_iterations is not None:
-            return TRIED
-        room = int((1 - FIRST_SHARE) * options.time_limit / LEAST_ROUND)
-        return TRIED[::max(1, len(TRIED) // max(1, room))]
+            return ROUNDS
+        return max(1, min(ROUNDS, int((1 - FIRST_SHARE) * options.time_limit / LEAST_ROUND)))
 
     def _other(self, best: PlanResult, problem: Problem, options: PlanOptions,
                listener: Listener, further: Further) -> Priced | None:
         """Return a plan by windows that end sooner; None: there is none that is legal."""
         try:
-            result = further(problem, best.solution, options, listener)
+            result = further(problem, best.solution, replace(options, cooled=COOLED), listener)
         except REFUSED:
             return None
         evaluation = self.check(result.solution)
@@ -120,21 +123,20 @@ class RiskSearch:
         late = late_hours(self.judged, result.solution, self.spread, self.now)
         return Priced(result, result.evaluation.cost.total + late * self.cost_per_hour)
 
-    def _buffers(self, plan: Solution, among: float, buffer: float) -> dict[int, int]:
-        """Return by how many ms some customers' windows are to end sooner, by their nodes."""
+    def _buffers(self, plan: Solution) -> list[tuple[int, int]]:
+        """Return by how many ms windows might end sooner, by nodes, the most lateness first."""
         late = sorted([(each.expected, node, each.deviation) for node, each in expectations(
             self.judged, plan, self.spread, self.now) if each.expected > 0], reverse=True)
-        return {node: round(buffer * deviation)
-                for _, node, deviation in late[:math.ceil(among * len(late))]}
+        return [(node, round(BUFFER * deviation)) for _, node, deviation in late
+                if node < self.stated.num_nodes]
 
     def _ending(self, sooner: Mapping[int, int]) -> Problem:
         """Return the problem with windows that end sooner, but not before they begin."""
         first, customers = self.stated.num_depots, list(self.stated.customers)
         for node, by in sooner.items():
-            if node - first < len(customers):
-                each = customers[node - first]
-                customers[node - first] = replace(
-                    each, latest=max(each.openings[-1], each.latest - by))
+            each = customers[node - first]
+            customers[node - first] = replace(
+                each, latest=max(each.openings[-1], each.latest - by))
         return replace(self.stated, customers=tuple(customers))
 
 
@@ -152,18 +154,27 @@ def further(planner: Planner, received_at: float, terms: Terms | None) -> Furthe
 
 def without_late(problem: Problem, plan: Solution) -> Solution:
     """Return a plan of another problem without those for whom it breaks rules there."""
-    routes = []
-    for route in plan.routes:
-        mended: Route | None = route
-        if judge_route(problem, route, "").violations:
-            mended = repaired_route(problem, read_route(problem, route), (),
-                                    [partial(schedule, problem)])
-        if mended is not None:
-            routes.append(mended)
+    routes = list(_mended(problem, plan))
     served = {node for route in routes for trip in route.trips for node in (
         *(stop.node for stop in trip.customer_stops),
         *(node for sortie in trip.sorties for node in sortie.nodes))}
-    return Solution(tuple(routes), tuple(problem.left_out(served)))
+    return Solution(tuple(routes), problem.left_out(served))
+
+
+def _mended(problem: Problem, plan: Solution) -> Iterator[Route]:
+    for route in plan.routes:
+        mended: Route | None = route
+        if judge_route(problem, route, "").violations:
+            free = read_route(problem, route)
+            free = replace(free, trips=tuple([
+                replace(trip, operations=None, start=None) for trip in free.trips]))
+            mended = repaired_route(problem, free, (), [partial(_timed, problem)])
+        if mended is not None:
+            yield mended
+
+
+def _timed(problem: Problem, decision: RouteDecision) -> Route:
+    return time_route(problem, decision, "", EVERYTHING_OPEN).route
 
 
 def _part(options: PlanOptions, until: float, share: float | None = None) -> PlanOptions:
