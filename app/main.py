@@ -152,7 +152,7 @@ def _running(app: FastAPI, settings: Settings, planner: Planner | None,
         app.state.addresses = roads.addresses
         with _planning(settings, planner, roads, observer) as app.state.plans:
             jobs = running_jobs(settings, app.state.plans, observer.metrics, observer.record_plan,
-                                [delete_expired], message_of)
+                                [delete_expired], partial(message_of, base=settings.public_url))
             app.state.gallery.start()
             with (keeping_plans(settings) as app.state.kept, jobs as app.state.jobs,
                   running_days(settings, app.state.plans, app.state.jobs) as app.state.days,

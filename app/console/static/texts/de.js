@@ -373,6 +373,7 @@ export default {
     too_few_vehicles: 'Zu wenige Fahrzeuge',
     unassigned: 'Nicht eingeplant',
     changes: 'Änderungen',
+    lateness_risk: 'Zu erwartende Verspätung',
   },
   servedBy: {
     truck: 'nur Fahrzeug',
@@ -411,6 +412,7 @@ export default {
     waitsUntil: '{{time}}, bis {{until}}',
     departure: 'Abfahrt',
     lateBy: 'Verspätet um',
+    chance: 'Wahrscheinlich verspätet zu',
     payload: 'Nutzlast',
     load: 'Ladung bei Abfahrt',
     flight: 'Flug von {{drone}}',

@@ -360,6 +360,7 @@ export default {
     too_few_vehicles: 'Vehicles that lack',
     unassigned: 'Left out',
     changes: 'Changes',
+    lateness_risk: 'Lateness to be expected',
   },
   servedBy: {
     truck: 'truck only',
@@ -398,6 +399,7 @@ export default {
     waitsUntil: '{{time}}, until {{until}}',
     departure: 'Departure',
     lateBy: 'Late by',
+    chance: 'Chance of being late',
     payload: 'Payload',
     load: 'Load on leaving',
     flight: 'Flight of {{drone}}',

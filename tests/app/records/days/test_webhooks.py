@@ -23,6 +23,7 @@ SECRET = "whsec_MDEyMzQ1Njc4OTAxMjM0NTY3ODkwMTIzNDU2Nzg5MDE="
 def service(tmp_path_factory: pytest.TempPathFactory) -> Iterator[httpx.Client]:
     """Return a client of a service that calls webhooks, soon again where they failed."""
     settings = Settings(data_dir=tmp_path_factory.mktemp("hooked"), drain_seconds=0, role="all",
+                        public_url="https://tandem.example",
                         webhook_secret=SecretStr(SECRET))
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(webhook, "FIRST_WAIT", 0.25)
@@ -43,6 +44,10 @@ def test_news_of_plans_are_told_signed_and_again(service: httpx.Client) -> None:
     assert {(each["type"], each["data"]["plan_number"]) for each in messages.values()} == {
         ("plan.changed", 1), ("eta.changed", 1), ("plan.changed", 2), ("order.at_risk", 2)}
     assert {each["data"]["day"] for each in messages.values()} == {day}
+    links = {event["about"]["order"]: event["about"].pop("link") for each in messages.values()
+             for event in each["data"]["events"] if "order" in event["about"]}
+    assert links == {link["order"]: link["url"]
+                     for link in service.get(f"/days/{day}/links").json()["links"]}
     heard = sorted((event["number"], event["kind"]) for each in messages.values()
                    for event in each["data"]["events"])
     streamed = [(event["number"], event["kind"])

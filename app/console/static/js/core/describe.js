@@ -124,6 +124,7 @@ export function haltFacts(halt) {
   }
   facts.push([t('about.departure'), clock(halt.departure, { precise: true })]);
   if (halt.lateness > 0) facts.push([t('about.lateBy'), duration(halt.lateness)]);
+  if (halt.chance) facts.push([t('about.chance'), percent(halt.chance)]);
   facts.push([halt.sortie ? t('about.payload') : t('about.load'), amounts(halt.load)]);
   if (halt.energyLeft !== null) facts.push([t('about.energyLeft'), wattHours(halt.energyLeft)]);
   return facts;

@@ -197,7 +197,8 @@ function haltOf(key, reply, trip, source) {
     serviceStart: reply.service_start,
     setup: reply.setup ?? 0,
     departure: reply.departure,
-    lateness: reply.lateness,
+    lateness: reply.lateness?.seconds ?? reply.lateness,
+    chance: reply.lateness?.chance ?? null,
     energyLeft: reply.energy_left_wh ?? null,
   };
 }
