@@ -5,6 +5,7 @@ end sooner for it, and it goes on from the best plan so far. Where that is cheap
 to be expected, by the windows as they are stated, plan and windows stay; else others are next.
 """
 
+import time
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, replace
 from functools import partial
@@ -79,19 +80,24 @@ class RiskSearch:
     def find(self, options: PlanOptions, listener: Listener, plan: Plan,
              further: Further) -> PlanResult:
         """Return the cheapest plan; raises as `plan` does."""
+        began = time.perf_counter()
         results = [plan(_part(options, FIRST_SHARE), listener)]
+        # What a round may take, which is more than its share where all is begun anew each time.
+        longest = time.perf_counter() - began - FIRST_SHARE * options.time_limit
         best, sooner, passed = self._priced(results[0]), dict[int, int](), 0
         quiet, rounds = Listener(listener.should_stop), self._rounds(options)
         share = (1 - FIRST_SHARE) / rounds
         for number in range(rounds):
             buffers = self._buffers(best.result.solution)
-            if not buffers or listener.should_stop():
+            since = time.perf_counter()
+            if (not buffers or listener.should_stop()
+                    or since - began + longest > options.time_limit):
                 break
             first = passed % len(buffers)
             tried = sooner | dict(buffers[first:first + TOGETHER[number % len(TOGETHER)]])
             until = _part(options, FIRST_SHARE + (number + 1) * share, share)
             other = self._other(best.result, self._ending(tried), until, quiet, further)
-            passed += 1
+            passed, longest = passed + 1, max(longest, time.perf_counter() - since)
             if other is not None:
                 results.append(other.result)
                 if other.cost < best.cost:

@@ -55,6 +55,9 @@ LEASE, RENEWAL = 4.0, 1.0
 MAX_DEATHS = 3
 """How often processes may die of one plan before it is given up until something else is told."""
 
+MENDING = 0.5
+"""Share of the time to a plan after which no remedy for an order at risk is looked for."""
+
 RETRY = 1.0
 """Seconds between two looks while the database can't be reached."""
 
@@ -164,6 +167,7 @@ class DayRunner:
 
     def _make(self, day: DayRow) -> None:
         begun = self._store.begun(day.id)
+        until = time.monotonic() + MENDING * begun.terms.plan_within
         log = [event for event in self._store.log(day.id) if event.number <= day.revision]
         told = fold(begun, log, day.plan_start)
         content = self._store.plan(day.id)
@@ -182,8 +186,8 @@ class DayRunner:
         rows = news_of(day.plan_number + 1, day.asked, round(day.plan_start + 1000 * now), told,
                        before, plan, from_json(reply), problem, begun.terms,
                        observed(before, told, log, day.planned),
-                       lambda order: remedy_of(order, from_json(wanted), from_json(reply), now,
-                                               self._quote))
+                       lambda order: None if time.monotonic() > until else remedy_of(
+                           order, from_json(wanted), from_json(reply), now, self._quote))
         self._store.publish(self._with_end(day, plan), self._by, reply, work, rows,
                             partial(self._announced, day, begun.terms.webhook, rows))
 
