@@ -27,6 +27,7 @@ def test_day_is_begun_with_the_plan_and_opened_again(page: Page) -> None:
     page.get_by_role("button", name="Begin the day").click()
     expect(page.get_by_role("timer")).to_be_visible()
     expect(page.locator(".links li").first).to_be_visible()
+    expect(page.locator("#total-cost")).to_be_visible()
     assert "#day=" in page.url
     assert state(page, "state.plans.0.plan.summary.served") == served
     page.reload()

@@ -1,7 +1,7 @@
 import assert from 'node:assert/strict';
 import test from 'node:test';
 import {
-  changesOf, doubtsOf, lateOf, slotsFor, untoldOf, waitingOf, withUntold,
+  changesOf, doubtsOf, lateInWords, lateOf, slotsFor, untoldOf, waitingOf, withUntold,
 } from '../../../app/console/static/js/core/living.js';
 
 const customer = (id, more = {}) => ({ id, location: [0, 0], demand: [1], ...more });
@@ -38,6 +38,12 @@ test('who is late, waits or is in doubt is told by how the day stands', () => {
   const index = indexed({ A: ['van-1', 900], C: ['van-1', 900, 3600] });
   assert.deepEqual(lateOf(day, index).map(({ id, by }) => [id, by]), [['C', 3600], ['B', 700]]);
   assert.deepEqual(waitingOf(day, index.plan).map(({ id }) => id), ['D']);
+  const outlook = [{ id: 'A', leaves: false, departure: 3600, futures: 30, later_in: 26,
+    saved: 3.1 }];
+  assert.deepEqual(waitingOf(day, { ...index.plan, outlook })[0], { id: 'A', key: 'c:A',
+    why: 'Waits: in 26 of 30 futures it leaves at 1:00, for 3.10 less' });
+  const risky = { orders: [order('A', 'planned', { at_risk: true, chance: 0.3 })] };
+  assert.deepEqual(lateOf(risky, index).map(lateInWords), ['may be late (30 %)']);
   assert.deepEqual(doubtsOf(day).map(([vehicle, orders]) => [vehicle, orders.length]),
     [['van-1', 2]]);
 });

@@ -2259,6 +2259,11 @@ export default {
     new: 'neu',
     out: 'ausgelassen',
     late: '{{by}} zu spät',
+    atRisk: 'vielleicht zu spät',
+    risk: 'vielleicht zu spät ({{share}})',
+    later: 'Wartet: später reicht es noch',
+    laterFor:
+      'Wartet: in {{count}} von {{futures}} Zukünften fährt es um {{at}}, für {{size}} weniger',
     waits: 'Wartet auf den nächsten Plan',
     seen: 'Gesehen',
     seenAt: 'gesehen {{at}}',

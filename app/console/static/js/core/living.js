@@ -1,6 +1,6 @@
 /** A day as it happens: what changed a moment ago, who is late, who waits, what isn't told yet. */
 
-import { clock, duration } from './format.js';
+import { clock, duration, money, percent } from './format.js';
 import { saidOf } from './said.js';
 import { nameOfVehicle } from './vehicle-labels.js';
 import { t } from '../texts.js';
@@ -43,16 +43,31 @@ export function lateOf({ orders }, index) {
     const key = `c:${order.id}`;
     const behind = order.told === null ? 0 : order.arrival - order.told;
     const by = Math.max(index?.halts.get(key)?.lateness ?? 0, behind < PROMISED ? 0 : behind);
-    return by < LEAST ? [] : [{ ...order, key, by }];
+    return by < LEAST && !order.at_risk ? [] : [{ ...order, key, by }];
   }).sort((one, other) => other.by - one.by);
 }
 
-/** Return who waits, and why: those whom the plan leaves out, and those it hasn't seen yet. */
+/**
+ * Return who waits, and why: those whom the plan leaves out, those it hasn't seen yet, and those
+ * who ride along later for less.
+ */
 export function waitingOf({ orders }, plan) {
   const left = new Map(plan?.unassigned.map(({ id, reasons }) => [id, reasons?.[0]]));
-  return orders.filter(({ state }) => state === 'waiting' || state === 'left_out')
-    .map(({ id }) => ({ id, key: `c:${id}`, why: left.has(id)
-      ? (left.get(id) && saidOf(left.get(id))) || t('live.out') : t('live.waits') }));
+  const later = new Map(plan?.outlook?.filter(({ leaves }) => !leaves)
+    .map((each) => [each.id, each]));
+  const why = ({ id, state }) => {
+    if (left.has(id)) return (left.get(id) && saidOf(left.get(id))) || t('live.out');
+    if (state === 'waiting') return t('live.waits');
+    return state === 'planned' && later.has(id) ? waitInWords(later.get(id)) : null;
+  };
+  return orders.map((order) => ({ id: order.id, key: `c:${order.id}`, why: why(order) }))
+    .filter((order) => order.why);
+}
+
+function waitInWords({ departure, futures, later_in: count, saved }) {
+  if (departure === null || !futures) return t('live.later');
+  return t('live.laterFor', {
+    at: clock(departure), count, futures, size: saved === null ? '' : money(saved) });
 }
 
 /** Return orders of which nobody told, by vehicle. */
@@ -62,10 +77,17 @@ export function doubtsOf({ orders }) {
     .map((vehicle) => [vehicle, doubts.filter((order) => order.vehicle === vehicle)]);
 }
 
+/** Return by how much an order is late, or how likely it will be. */
+export function lateInWords({ by, chance }) {
+  if (by >= LEAST) return t('live.late', { by: duration(by) });
+  return chance === null || chance === undefined ? t('live.atRisk')
+    : t('live.risk', { share: percent(chance) });
+}
+
 /** Return what stands beside customers on the map and in lists, by key: `{kind, text}`. */
 export function newsOf(day, index, changes) {
-  const late = lateOf(day, index).map(({ key, by }) => [key, {
-    kind: 'late', text: t('live.late', { by: duration(by) }) }]);
+  const late = lateOf(day, index).map((order) => [order.key, {
+    kind: order.by < LEAST ? 'later' : 'late', text: lateInWords(order) }]);
   const doubts = day.orders.filter(({ state }) => state === 'doubtful')
     .map(({ id }) => [`c:${id}`, { kind: 'doubt', text: '?' }]);
   return new Map([...changes, ...late, ...doubts]);

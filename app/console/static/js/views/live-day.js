@@ -2,8 +2,8 @@
 
 import { shownPlan, indexOf } from '../actions.js';
 import { driverReason } from '../core/dispatches.js';
-import { clock, duration, money } from '../core/format.js';
-import { doubtsOf, lateOf, slotInWords, waitingOf } from '../core/living.js';
+import { clock, money } from '../core/format.js';
+import { doubtsOf, lateInWords, lateOf, slotInWords, waitingOf } from '../core/living.js';
 import { saidOf } from '../core/said.js';
 import { nameOfVehicle } from '../core/vehicle-labels.js';
 import { html, useState } from '../libraries.js';
@@ -31,10 +31,10 @@ export function LiveDay() {
     ${day.failure && html`<p class="error" role="alert">${t('live.failure')} ${day.failure}</p>`}
     <${Doubts} day=${day} index=${index} isAsked=${!isWall} />
     ${!isWall && (live.quote ? html`<${Quote} quote=${live.quote} />` : html`<${NewOrder} />`)}
-    <${Listed} name="late" rows=${late} most=${most} row=${({ key, id, vehicle, arrival, by }) =>
-      html`<${SelectButton} of=${key}>${id}</${SelectButton}>
-        <span>${nameOfVehicle(vehicle)}, ${clock(arrival)}</span>
-        <span class="news late">${t('live.late', { by: duration(by) })}</span>`} />
+    <${Listed} name="late" rows=${late} most=${most} row=${(order) =>
+      html`<${SelectButton} of=${order.key}>${order.id}</${SelectButton}>
+        <span>${nameOfVehicle(order.vehicle)}, ${clock(order.arrival)}</span>
+        <span class=${`news ${live.news.get(order.key)?.kind}`}>${lateInWords(order)}</span>`} />
     <${Listed} name="waiting" rows=${waiting} most=${most} row=${({ key, id, why }) =>
       html`<${SelectButton} of=${key}>${id}</${SelectButton}> <span>${why}</span>`} />
     <${Listed} name="changed" rows=${changed} most=${most} row=${([key, { kind, text }]) =>
