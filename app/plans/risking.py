@@ -90,18 +90,21 @@ class RiskSearch:
         for number in range(rounds):
             buffers = self._buffers(best.result.solution)
             since = time.perf_counter()
-            if (not buffers or listener.should_stop()
-                    or since - began + longest > options.time_limit):
+            if listener.should_stop() or since - began + longest > options.time_limit:
                 break
-            first = passed % len(buffers)
+            # Where nobody is late, what is left of the time is for the costs alone.
+            lasting = 1 if buffers else rounds - number
+            first = passed % max(1, len(buffers))
             tried = sooner | dict(buffers[first:first + TOGETHER[number % len(TOGETHER)]])
-            until = _part(options, FIRST_SHARE + (number + 1) * share, share)
+            until = _part(options, FIRST_SHARE + (number + lasting) * share, lasting * share)
             other = self._other(best.result, self._ending(tried), until, quiet, further)
             passed, longest = passed + 1, max(longest, time.perf_counter() - since)
             if other is not None:
                 results.append(other.result)
                 if other.cost < best.cost:
                     best, sooner, passed = other, tried, 0
+            if not buffers:
+                break
         return replace(best.result,
                        search_iterations=sum(each.search_iterations for each in results),
                        deterministic=all(each.deterministic for each in results),
