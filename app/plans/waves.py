@@ -29,8 +29,9 @@ from model.solution import Solution
 DECIDING = 0.4
 """Share of the time limit in which it is decided who waits."""
 
-PLANNING = 0.85
-"""Share of the time limit after which those leave now whom no later trip could take."""
+PLANNING = 0.8
+"""Share of the time limit after which it is planned as if nobody waited, if somebody is left out.
+"""
 
 QUOTED = WaveConfig(futures=6, seconds=0.3)
 """How far it is looked ahead for a quote, whose slots share the futures."""
@@ -77,13 +78,12 @@ class Waves:
             return planner.plan(held_back(problem, held), own, received_at, listener)
 
         if not held:
-            return planned(held, 1.0)
-        result = planned(held, PLANNING)
-        lost = set(result.solution.unassigned).intersection(held)
-        if not lost:
-            return result
-        # Whom no later trip can take after all leaves now.
-        return planned({node: until for node, until in held.items() if node not in lost}, 1.0)
+            return planned({}, 1.0)
+        waiting = planned(held, PLANNING)
+        if not waiting.solution.unassigned:
+            return waiting
+        # Later trips may not take all of them after all.
+        return min(waiting, planned({}, 1.0), key=lambda result: result.final_cost)
 
     def _decide(self, problem: Problem, replanning: Replanning | None,
                options: PlanOptions) -> tuple[Outlook, ...]:
@@ -175,7 +175,8 @@ class Waves:
             earliest=max(kind.earliest, kind.busy_until), fixed_cost=kind.fixed_cost))
             for here, (whole, kind) in enumerate(zip(left.kinds, left.problem.vehicle_types,
                                                      strict=True))
-            if not (here in left.workers and left.workers[here].is_under_way)]
+            if not (here in left.workers and left.workers[here].is_under_way)
+            and max(kind.earliest, kind.busy_until) <= kinds[whole].latest]
 
     def _with(self, kinds: Sequence[tuple[int, VehicleType]]) -> Problem:
         """Return the problem with the types that there are, and their rows of its tables."""

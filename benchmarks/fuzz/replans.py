@@ -12,7 +12,7 @@ more than the plan given, where that may still be driven as it is. Nothing that 
 import json
 import math
 import random
-from collections.abc import Callable, Collection, Mapping
+from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Annotated, Any, Literal
 
@@ -85,6 +85,8 @@ class Days(Study):
             later["options"] = later.get("options", {}) | {"change_costs": {
                 name: rng.choice((0.0, 0.1, 10.0))
                 for name in ("vehicle", "position", "promise_per_minute")}}
+            if _may_wait(later):
+                later["forecast"] = _drawn_forecast(rng, later["customers"])
             replanned = self.planned(later)
             self.replanned += replanned is not None
 
@@ -231,6 +233,20 @@ DayKind = Literal["changing", "gone", "late", "unchanged"]
 KINDS: Mapping[DayKind, Callable[[Days, int], None]] = {
     "changing": Days.try_day, "gone": Days.try_gone, "late": Days.try_late,
     "unchanged": Days.try_unchanged}
+
+def _may_wait(request: Data) -> bool:
+    """Tell whether it may be decided who waits."""
+    return not (any(request.get(name) for name in ("shipments", "relations", "fairness"))
+                or any(each.get("alternatives") for each in request["customers"]))
+
+
+def _drawn_forecast(rng: random.Random, customers: Sequence[Data]) -> Data:
+    """Return a forecast of orders like some of today's, or none of any."""
+    days = [[each | {"placed_at": rng.randrange(20_000)}
+             for each in rng.sample(customers, rng.randrange(len(customers) + 1))]
+            for _ in range(rng.randrange(3))]
+    return {"every": rng.choice((600, 3600, 20_000)), "look_ahead": rng.randrange(1, 4),
+            "past_days": days}
 
 
 def main(

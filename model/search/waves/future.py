@@ -93,8 +93,9 @@ def future_of(wave: Wave, coming: Sequence[Coming]) -> Future:
     return Future(wave, replace(
         problem, customers=tuple([each if each.release_time == 0 else replace(each, release_time=0)
                                   for each in customers]),
-        vehicle_types=tuple([replace(kind, earliest=max(kind.earliest, leaves))
-                             for leaves in wave.departures for kind in kinds]),
+        vehicle_types=tuple([
+            replace(kind, earliest=min(max(kind.earliest, leaves), kind.latest))
+            for leaves in wave.departures for kind in kinds]),
         travel=tuple([legs.among(nodes) for legs in problem.travel]),
         coordinates=problem.coordinates[nodes], may_serve=_may_serve(wave, nodes, released),
         vehicle_costs=None if costs is None else np.tile(costs, (times, 1)),
@@ -102,10 +103,15 @@ def future_of(wave: Wave, coming: Sequence[Coming]) -> Future:
 
 
 def _may_serve(wave: Wave, nodes: IntArray, released: Sequence[int]) -> BoolArray:
-    """Return (type, customer): whom vehicles may serve that leave once it is there."""
+    """Return (type, customer): whom vehicles may serve that leave once it is there.
+
+    Nobody by those whose work is over by then.
+    """
     problem = wave.problem
     may = np.repeat(np.array(released, np.int64) <= np.array(wave.departures)[:, None],
                     wave.num_types, axis=0)
+    late = [kind.latest < leaves for leaves in wave.departures for kind in problem.vehicle_types]
+    may[late] = False
     if problem.may_serve is not None:
         columns = nodes[problem.num_depots:] - problem.num_depots
         may &= np.tile(problem.may_serve[:, columns], (len(wave.departures), 1))

@@ -91,6 +91,14 @@ def test_who_can_not_leave_now_waits() -> None:
     assert leaves(found.plan) == [5]
 
 
+def test_all_must_leave_now_where_vehicles_are_home_by_the_next_departure() -> None:
+    wave = wave_of((2, EASY))
+    kinds = tuple(replace(kind, latest=NEXT - 1) for kind in wave.problem.vehicle_types)
+    found = decide(replace(wave, problem=replace(wave.problem, vehicle_types=kinds)),
+                   lambda rng: coming(3), FEW)
+    assert told(found.outlooks) == [(True, True, 0, 0, None)]
+
+
 def test_all_must_leave_at_the_last_departure() -> None:
     wave = wave_of((3, URGENT), (2, EASY), departures=(NOW,))
     assert must_leave(wave) == {5, 6}
