@@ -235,9 +235,11 @@ KINDS: Mapping[DayKind, Callable[[Days, int], None]] = {
     "unchanged": Days.try_unchanged}
 
 def _may_wait(request: Data) -> bool:
-    """Tell whether it may be decided who waits."""
-    return not (any(request.get(name) for name in ("shipments", "relations", "fairness"))
-                or any(each.get("alternatives") for each in request["customers"]))
+    """Tell whether it may be decided who waits; customers may be no customers any more."""
+    customers = request.get("customers")
+    return (isinstance(customers, list) and all(
+        isinstance(each, dict) and not each.get("alternatives") for each in customers)
+        and not any(request.get(name) for name in ("shipments", "relations", "fairness")))
 
 
 def _drawn_forecast(rng: random.Random, customers: Sequence[Data]) -> Data:
