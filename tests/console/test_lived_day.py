@@ -14,7 +14,6 @@ from playwright.sync_api import Browser, BrowserContext, Page, expect
 from tests.app.records.days.living import PROBLEM, begun, order, plan_of, standing
 from tests.conftest import PATIENCE
 from tests.console.serving import new_context
-from tests.console.steps import state
 from tests.console.test_drivers import PHONE, mark
 
 pytestmark = pytest.mark.slow
@@ -104,11 +103,11 @@ def test_ten_minutes_of_a_day_are_seen_by_all_whom_they_concern(
 
     living.until(600)
     expect(desk.get_by_role("timer")).to_have_text(clock_at(client, day))
+    expect(desk.get_by_label("Time of day")).to_have_value("600")
     told = standing(client, day)
     assert told.is_planned or told.failure is None
     assert {each.id: each.state for each in told.orders}[first] == "served"
     assert {each.id for each in told.orders} == {*"ABCDEFG"}
-    assert state(desk, "state.time") == 600
     assert living.began + 600 / SPEED <= time.monotonic()
     driver.evaluate("dispatchEvent(new Event('online'))")
     expect(driver.locator("li.done")).to_have_count(2)

@@ -49,9 +49,18 @@ export async function openDay(id, isWall = false) {
   history.replaceState(null, '', `#day=${encodeURIComponent(day.id)}${isWall ? '&wall' : ''}`);
   await refresh();
   followDispatch(day.dispatch);
-  const timer = setInterval(() => (isFollowed(id) ? refresh() : following.abort()), LOOK_MS);
+  const timer = setInterval(() => {
+    if (isFollowed(live.id)) refresh();
+    else leave();
+  }, LOOK_MS);
   signal.addEventListener('abort', () => clearInterval(timer));
   api.followDay(day.id, hear, signal).catch(showFailure);
+}
+
+/** Follow a day no more, and don't open it again by the address. */
+function leave() {
+  following.abort();
+  if (!store.get().live) history.replaceState(null, '', location.pathname + location.search);
 }
 
 function isFollowed(id) {

@@ -41,6 +41,10 @@ async function begin() {
   listenToDrops();
   listenToPastes();
   listenToLinks();
+  addEventListener('hashchange', () => {
+    const day = dayInAddress();
+    if (day) openDay(day.id, day.isWall).catch(showFailure);
+  });
   try {
     const [description, config, restored] = await Promise.all([
       api.getDescription(),

@@ -24,7 +24,8 @@ function note(patch) {
 
 /** Plan the problem as it stands, in place of any planning under way. */
 export async function plan() {
-  if (await isPlaced()) {
+  // A day that goes on is planned by the service.
+  if (!store.get().live && await isPlaced()) {
     const { request } = store.get();
     await run(request, request);
   }
@@ -50,9 +51,9 @@ async function isPlaced() {
 
 /** Search on from the plan that is looked at; settled, pinned, locked and broken stays so. */
 export function improvePlan() {
-  const { request, locks } = store.get();
+  const { request, locks, live } = store.get();
   const entry = shownPlan(store.get());
-  return entry ? run(request, furtherFrom(request, entry, locks)) : undefined;
+  return entry && !live ? run(request, furtherFrom(request, entry, locks)) : undefined;
 }
 
 /** Plan for a problem what is `asked`, with the lines of legs and flights, which the map draws. */
