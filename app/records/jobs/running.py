@@ -49,8 +49,8 @@ class RegionTerms:
         """Tell whether a job is planned by regions.
 
         Not one whose legs or places are only known by asking others, or that goes on from a plan,
-        costs something as a whole, has orders across vehicles, shares chargers in time, or is to
-        make so many iterations and no more.
+        has a forecast, costs something as a whole, has orders across vehicles, shares chargers in
+        time, or is to make so many iterations and no more.
         """
         task, options = asked.task, asked.options
         return (task.problem.num_customers >= self.least_customers
@@ -58,7 +58,7 @@ class RegionTerms:
                 and options.search_iterations is None
                 and not task.problem.fairness.is_stated and not task.problem.lags_across
                 and not limits_chargers(task.problem)
-                and task.replanning is None and task.far is None
+                and task.replanning is None and task.far is None and task.waves is None
                 and not (task.places is not None and task.places.found)
                 and all(origin.by != "roads" for origin in task.legs))
 
