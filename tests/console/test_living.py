@@ -107,6 +107,18 @@ def test_wall_shows_the_day_without_a_panel_to_work_in(
     assert size >= 30
 
 
+def test_what_cannot_be_planned_is_said_and_the_plan_before_stays(
+        client: httpx.Client, service: str, open_page: Callable[..., Page]) -> None:
+    day = begun(client)
+    page = open_page(f"{service}/#day={day}")
+    expect(page.get_by_role("timer")).to_be_visible()
+    # Its depot isn't open yet.
+    client.post(f"/days/{day}/events", json=[
+        {"event_id": "early", "kind": "vehicle.departed", "vehicle": "van-1", "at": 10}])
+    expect(page.get_by_role("alert")).to_contain_text("the plan before stays")
+    expect(page.locator("#total-cost")).to_be_visible()
+
+
 def cancel(page: Page, name: str) -> None:
     """Take an order out, which isn't told yet."""
     open_tab(page, "customers")

@@ -2252,7 +2252,7 @@ export default {
   live: {
     begin: 'Den Tag beginnen',
     plan: 'Der Tag',
-    failure: 'Es ließ sich kein Plan machen:',
+    failure: 'Das zuletzt Gemeldete ließ sich nicht planen: der Plan davor gilt.',
     planning: 'Plant',
     tell_one: '{{count}} Änderung melden',
     tell_other: '{{count}} Änderungen melden',

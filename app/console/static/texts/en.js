@@ -2200,7 +2200,7 @@ export default {
   live: {
     begin: 'Begin the day',
     plan: 'The day',
-    failure: 'No plan could be made:',
+    failure: 'What was told last could not be planned: the plan before stays.',
     planning: 'Planning',
     tell_one: 'Tell {{count}} change',
     tell_other: 'Tell {{count}} changes',
