@@ -28,7 +28,8 @@ export function LiveDay() {
   const changed = [...changes].filter(([, { kind }]) => kind !== 'out');
   const news = told.slice(-MOST).reverse();
   return html`<div class="live-day">
-    ${day.failure && html`<p class="error" role="alert" title=${day.failure}>${t('live.failure')}</p>`}
+    ${day.failure && html`<p class="error" role="alert" title=${day.failure}>${
+      t('live.failure')}</p>`}
     <${Doubts} day=${day} index=${index} isAsked=${!isWall} />
     ${!isWall && (live.quote ? html`<${Quote} quote=${live.quote} />` : html`<${NewOrder} />`)}
     <${Listed} name="late" rows=${late} most=${most} row=${(order) =>
