@@ -51,4 +51,24 @@ private:
     OwnMemory memory_;
 };
 
+// A row of what is written before it is read.
+template <class T>
+class Row {
+public:
+    explicit Row(std::int64_t size)
+        : room_(std::make_unique_for_overwrite<T[]>(std::size_t(size))),
+          view_(room_.get(), {size}) {}
+
+    View<T, 1> view() const { return view_; }
+    operator View<T, 1>() const { return view_; }
+    std::int64_t size() const { return view_.size(); }
+    operator View<const T, 1>() const { return view_; }
+    T& operator[](std::int64_t index) const { return view_[index]; }
+    T& at(std::int64_t index) const { return view_.at(index); }
+
+private:
+    std::unique_ptr<T[]> room_;
+    View<T, 1> view_;
+};
+
 }  // namespace tandem

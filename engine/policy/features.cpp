@@ -108,7 +108,7 @@ void describe_customer(const Situation& now, Int node, const Outlook& outlook,
         feature.window_slack = to_float(left);
     }
     if (some_limited(setting.max_between) && is_delivery(setting.pair, node)) {
-        const Int excess = excess_under_way(setting, log, node, outlook.start);
+        const Int excess = excess_under_way(setting, log, node, log.count.stops, outlook.start);
         left = std::min(double(feature.window_slack), slack(0, excess, unit.time));
         feature.window_slack = to_float(left);
     }
@@ -410,13 +410,11 @@ using namespace tandem;
 namespace {
 
 // Observe rollouts one after another; returns the largest count.
-Int observe_all(const tandem_scene& from, State& state, Int first, Int behind, Int scratch,
+Int observe_all(const Scene& scene, State& state, Int first, Int behind, Int scratch,
                 const Observation& seen) {
-    const Instance& instance = from.instance;
-    const Scales& scale = from.scale;
     Int most = 0;
     for (Int r = first; r < behind; ++r) {
-        observe({instance, scale, from.type_token}, state, r, scratch, seen_of(seen, r));
+        observe(scene, state, r, scratch, seen_of(seen, r));
         most = std::max(most, seen.count[r]);
     }
     return most;

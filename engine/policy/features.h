@@ -3,16 +3,9 @@
 // Like the tokens, all numbers are free of units. Training and decoding share this file.
 #pragma once
 
-#include "policy/observation.h"
+#include "simulation/state.h"
 
 namespace tandem {
-
-// Problems as policies see them.
-struct Scene {
-    const Instance& instance;
-    const Scales& scale;
-    View<const float, 3> type_token;  // (problem, type, features)
-};
 
 // What the decision of one rollout sees, its row of an `Observation`.
 struct Seen {

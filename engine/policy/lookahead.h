@@ -4,7 +4,7 @@
 // one customer further: what comes next, what can no longer come, what would better come before.
 #pragma once
 
-#include "policy/observation.h"
+#include "simulation/state.h"
 
 namespace tandem {
 

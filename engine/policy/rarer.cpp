@@ -71,22 +71,6 @@ double rest_on_leg(const Duty& duty, const Candidate& candidate) {
 
 }  // namespace
 
-Int excess_under_way(const Setting& setting, const VehicleLog& log, Int delivery, Int start) {
-    Int most = -far;
-    for (const LoggedStop& stop : log.stop.first(log.count.stops)) {
-        const Int pickup = stop.node;
-        if (!brings(setting.pair, pickup, delivery)) continue;
-        const Int left = stop.start + setting.node[pickup].service_duration();
-        most = std::max(most, excess_between(setting.max_between, pickup, left, start));
-    }
-    for (const LoggedSortie& sortie : log.sortie.first(log.count.sorties)) {
-        if (!brings(setting.pair, sortie.node, delivery)) continue;
-        most =
-            std::max(most, excess_between(setting.max_between, sortie.node, sortie.ready, start));
-    }
-    return most;
-}
-
 void describe_rarer(const Duty& duty, const Candidate& candidate, ActionFeatures& feature) {
     const Setting& setting = duty.setting;
     const Vehicle& vehicle = duty.vehicle;

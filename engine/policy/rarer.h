@@ -19,9 +19,6 @@ struct Duty {
     Int num_nodes;                       // without padding
 };
 
-// By how much a parcel is too long under way that is delivered then; negative if it isn't yet.
-Int excess_under_way(const Setting& setting, const VehicleLog& log, Int delivery, Int start);
-
 // Describe serving a customer.
 void describe_rarer(const Duty& duty, const Candidate& candidate, ActionFeatures& feature);
 

@@ -1,8 +1,8 @@
-#include "policy/rollouts.h"
-
+// Rollouts of the policy `attention`, from the first actions to the end of a plan.
 #include <numeric>
 
 #include "deadline.h"
+#include "policy/decision.h"
 #include "randomness.h"
 #include "simulation/simulator.h"
 
@@ -52,25 +52,11 @@ public:
     }
 
 private:
-    // An array whose rows are written before they are read.
-    template <class T>
-    class FreshRows {
-    public:
-        explicit FreshRows(Int size)
-            : data_(std::make_unique_for_overwrite<T[]>(std::size_t(size))), size_(size) {}
-
-        View<T, 1> view() { return {data_.get(), {size_}}; }
-
-    private:
-        std::unique_ptr<T[]> data_;
-        Int size_;
-    };
-
     Int count_ = 0;
     Int here_ = 0;
-    FreshRows<Int> action_, token_;
-    FreshRows<Outlook> outlook_;
-    FreshRows<ActionFeatures> feature_;
+    Row<Int> action_, token_;
+    Row<Outlook> outlook_;
+    Row<ActionFeatures> feature_;
     VehicleFeatures vehicle_;
 };
 
@@ -79,52 +65,10 @@ Int most_candidates(const Instance& instance) {
     return 2 * instance.node.shape(2) + 1 + instance.type.shape(1);
 }
 
-// Plans a rollout.
-class Planner {
-public:
-    Planner(const StepWeights& weights, const Scene& scene, State& state, Int scratch,
-            const Deadline& deadline)
-        : scene_(scene),
-          state_(state),
-          scratch_(scratch),
-          deadline_(deadline),
-          sight_(most_candidates(scene.instance)),
-          decider_(weights, most_candidates(scene.instance)) {
-        scores_.reserve(in_lanes(most_candidates(scene.instance)));
-    }
-
-    // Plan a rollout to its end and return how many actions it has.
-    Int plan(const Course& course, Int r) {
-        for (Int index = 0; index < course.kept; ++index) {
-            apply(scene_.instance, state_, r, course.actions[index]);
-        }
-        const Seen seen = sight_.seen();
-        for (Int index = course.kept; index < course.actions.size(); ++index) {
-            if (deadline_.passed()) return given_up;
-            observe(scene_, state_, r, scratch_, seen);
-            if (seen.count == 0) return index;
-            scores_.assign(in_lanes(seen.count), 0.0F);
-            decider_.score(course.memory, seen, {scores_.data(), {seen.count}});
-            const Int choice = choose(scores_, seen.count, course.temperature, course.random);
-            const Int action = seen.action[choice];
-            course.actions[index] = action;
-            apply(scene_.instance, state_, r, action);
-        }
-        return course.actions.size();
-    }
-
-private:
-    const Scene& scene_;
-    State& state_;
-    Int scratch_;
-    Deadline deadline_;
-    Sight sight_;
-    Decider decider_;
-    std::vector<float> scores_;
-};
-
-}  // namespace
-
+// The likeliest of so many candidates, or one drawn by probability if the temperature isn't 0.
+//
+// Scores fill whole lanes. If one is drawn, they are overwritten, and the state of random numbers
+// moves on.
 Int choose(std::vector<float>& scores, Int count, double temperature,
            View<std::uint64_t, 1> random) {
     const auto end = scores.begin() + count;
@@ -139,11 +83,54 @@ Int choose(std::vector<float>& scores, Int count, double temperature,
     return best;
 }
 
-Int roll_out(const StepWeights& weights, const Scene& scene, State& state, Int r,
-             const Course& course, View<const Int, 1> alarm) {
-    Planner planner(weights, scene, state, state.problem.size() - 1, Deadline(alarm));
-    return planner.plan(course, r);
-}
+// Plans a rollout.
+class Planner {
+public:
+    // By what the encoder made of the scene, until a deadline.
+    Planner(const StepWeights& weights, Embedding memory, const Scene& scene, State& state,
+            const Deadline& deadline)
+        : memory_(memory),
+          scene_(scene),
+          state_(state),
+          scratch_(state.problem.size() - 1),
+          deadline_(deadline),
+          sight_(most_candidates(scene.instance)),
+          decider_(weights, most_candidates(scene.instance)) {
+        scores_.reserve(in_lanes(most_candidates(scene.instance)));
+    }
+
+    // Plan a rollout to its end and return how many actions it has.
+    Int plan(const tandem_course& course, Int r) {
+        for (Int index = 0; index < course.kept; ++index) {
+            apply(scene_.instance, state_, r, course.actions[index]);
+        }
+        const Seen seen = sight_.seen();
+        for (Int index = course.kept; index < course.actions.size(); ++index) {
+            if (deadline_.passed()) return given_up;
+            observe(scene_, state_, r, scratch_, seen);
+            if (seen.count == 0) return index;
+            scores_.assign(in_lanes(seen.count), 0.0F);
+            decider_.score(memory_, seen, {scores_.data(), {seen.count}});
+            const Int choice = choose(scores_, seen.count, course.temperature, course.random);
+            const Int action = seen.action[choice];
+            course.actions[index] = action;
+            apply(scene_.instance, state_, r, action);
+        }
+        return course.actions.size();
+    }
+
+private:
+    const Embedding memory_;
+    const Scene& scene_;
+    State& state_;
+    Int scratch_;
+    Deadline deadline_;
+    Sight sight_;
+    Decider decider_;
+    std::vector<float> scores_;
+};
+
+}  // namespace
 
 }  // namespace tandem
 
@@ -163,10 +150,6 @@ int tandem_roll_out(const tandem_step_weights* weights, const tandem_f32_2d* mem
                     const tandem_scene* scene, tandem_state* state, int64_t r,
                     const tandem_course* course, const tandem_i64_1d* alarm, int64_t* count) {
     return guarded([&] {
-        const Instance& instance = scene->instance;
-        const Scales& scale = scene->scale;
-        *count = roll_out(
-            *weights, {instance, scale, scene->type_token}, *state, r,
-            {*memory, course->temperature, course->random, course->kept, course->actions}, *alarm);
+        *count = Planner(*weights, *memory, *scene, *state, Deadline(*alarm)).plan(*course, r);
     });
 }

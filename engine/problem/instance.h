@@ -43,4 +43,14 @@ constexpr Int pickups_any = 0;
 constexpr Int pickups_last = 1;
 constexpr Int pickups_begun = 2;
 
+using ActionFeatures = tandem_action_features;
+using VehicleFeatures = tandem_vehicle_features;
+
+using Scales = tandem_scales;
+using Observation = tandem_observation;
+using Scene = tandem_scene;
+using StepWeights = tandem_step_weights;
+
+inline float to_float(double value) { return float(value); }
+
 }  // namespace tandem

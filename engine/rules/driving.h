@@ -232,6 +232,49 @@ inline bool drive_with(RestedLeg& leg, Rests rests) {
     return true;
 }
 
+// A leg as it is begun at `leave`, with breaks and rests, on a route that begins at `begin`: how
+// long it is at full speed, without setup, and how long its driver was at other work before.
+struct PausedLeg {
+    Speeds speeds;
+    Rests rests;
+    Int begin, leave, duration, stood;
+
+    // When it ends without breaks, by when it begins.
+    auto travel() const {
+        return [this](Int time) {
+            return leg_end(speeds.type, speeds.times, speeds.factors, duration, time);
+        };
+    }
+
+    // The leg for a driver, of which nothing is driven yet; it may not outlast this.
+    RestedLeg by(const Driver& driver) const {
+        return {speeds, begin, driver, stood, leave, duration};
+    }
+
+    // When it ends; nothing if a break can't be taken. In place: what is counted of its driver,
+    // where that is followed.
+    std::optional<Int> end(Driver& driver) const {
+        if (!follows_driver(speeds.type)) {
+            return arrival_after(speeds.type, rests, begin, leave, travel());
+        }
+        RestedLeg leg = by(driver);
+        if (!drive_with(leg, rests)) return std::nullopt;
+        driver = leg.driver();
+        return leg.time();
+    }
+
+    // For how long it is driven. In place, as `end`.
+    Int driven(Driver& driver) const {
+        if (!follows_driver(speeds.type)) {
+            return driven_on_leg(speeds.type, rests, begin, leave, travel());
+        }
+        RestedLeg leg = by(driver);
+        drive_with(leg, rests);
+        driver = leg.driver();
+        return leg.driven();
+    }
+};
+
 // The rest that a driver takes who has to rest at once.
 inline Int usual_rest(const Driver& driver) {
     return driver.half_rested == 1 ? second_part : whole_rest;

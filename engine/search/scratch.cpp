@@ -1,4 +1,3 @@
-#include "search/scratch.h"
 
 #include <utility>
 

@@ -17,26 +17,6 @@ struct Line {
     Int spared_distance;  // likewise
 };
 
-// A row of what is written before it is read.
-template <class T>
-class Row {
-public:
-    explicit Row(Int size)
-        : room_(std::make_unique_for_overwrite<T[]>(std::size_t(size))),
-          view_(room_.get(), {size}) {}
-
-    View<T, 1> view() const { return view_; }
-    operator View<T, 1>() const { return view_; }
-    Int size() const { return view_.size(); }
-    operator View<const T, 1>() const { return view_; }
-    T& operator[](Int index) const { return view_[index]; }
-    T& at(Int index) const { return view_.at(index); }
-
-private:
-    std::unique_ptr<T[]> room_;
-    View<T, 1> view_;
-};
-
 constexpr Int longest_operation = 12;  // stops from where truck and drone part, at most
 
 // How many operations are compared at once that begin one after another.

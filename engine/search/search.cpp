@@ -1,6 +1,7 @@
 #include "search/search.h"
 
 #include "search/route/state.h"
+#include "search/trace.h"
 
 namespace tandem {
 namespace {
@@ -94,4 +95,8 @@ int tandem_missing_cost(const tandem_problem_data* data, tandem_search* search, 
 
 int tandem_go_back(tandem_search* search) {
     return guarded([&] { go_back(*search); });
+}
+
+int tandem_take_trace(int64_t* digest) {
+    return guarded([&] { *digest = std::bit_cast<std::int64_t>(priced_digest.exchange(0)); });
 }

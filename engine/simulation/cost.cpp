@@ -1,6 +1,5 @@
-#include "simulation/cost.h"
-
 #include "rules/drone_types.h"
+#include "simulation/simulator.h"
 #include "simulation/vehicle_log.h"
 
 namespace tandem {

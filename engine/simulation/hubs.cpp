@@ -1,7 +1,5 @@
-#include "simulation/hubs.h"
-
 #include "rules/hub.h"
-#include "simulation/meeting.h"
+#include "simulation/simulator.h"
 
 namespace tandem {
 namespace {

@@ -109,10 +109,9 @@ NextLaunch next_launch(const Setting& setting, const Vehicle& vehicle, View<cons
 // Time the flight of a drone that takes off at `here`.
 void fly(const Setting& setting, Drone& drone, Int here, Int to, Int takeoff) {
     const DroneKind drone_kind = drone_kind_of(setting, drone.row);
-    const Int arrival = takeoff + drone_kind.out(here, drone.node);
     const Int end = is_recovered(drone, Recovery::meet) ? to : here;
     drone.takeoff = takeoff;
-    drone.ready = drone_kind.node[drone.node].end_of_service(arrival);
+    drone.ready = drone_kind.ready(here, drone.node, takeoff);
     drone.back = drone.ready + drone_kind.home(drone.node, end);
     drone.lacking = 0;
     if (charges_aboard(drone_kind.type)) {
@@ -228,7 +227,7 @@ Ride ride(const Setting& setting, const VehicleLog& log, const Vehicle& vehicle,
     if (!may_pause(setting.type)) return {travel_arrival(setting, here, to, leave), {}};
     const Int begin = log.trip[0].start;
     const Int setup = setup_after(setting.setup, here, to);
-    const auto travel = travel_without_setup(setting, here, to);
+    const PausedLeg whole = paused_leg(setting, {{}, begin, here, to, leave});
     const bool is_customer = to >= setting.num_depots;
     const bool attends = asks && out && !may_rest_in_flights(setting.type);
     const auto ready = [&](Int arrival) {
@@ -250,17 +249,14 @@ Ride ride(const Setting& setting, const VehicleLog& log, const Vehicle& vehicle,
         Int driven = 0;
         const std::optional<Driver> driver = driver_of(setting, log, driven);
         if (!driver) return {-1, {}};
-        const Speeds speeds = speeds_of(setting);
-        const RestedLeg rested(speeds, begin, *driver, stood_at(setting, here), leave,
-                               travel_of(setting, here, to));
         const std::optional<Rests> rests =
-            Unforeseeing(setting.type, rested, opens, leaves).run(pauses);
+            Unforeseeing(setting.type, whole.by(*driver), opens, leaves).run(pauses);
         if (!rests || (attends && rests->any_unstated())) return {-1, {}};
         Driver counted = *driver;
         return {come(setting, {*rests, begin, here, to, leave}, counted), *rests};
     }
     const std::optional<Rests> rests =
-        rests_on_leg(setting.type, pauses, leave, travel, leaves, opens);
+        rests_on_leg(setting.type, pauses, leave, whole.travel(), leaves, opens);
     if (!rests) return {-1, {}};
     Driver nobody{};
     return {come(setting, {*rests, begin, here, to, leave}, nobody), *rests};

@@ -8,7 +8,6 @@
 #include "rules/lag.h"
 #include "rules/start.h"
 #include "simulation/aboard.h"
-#include "simulation/hubs.h"
 #include "simulation/trial.h"
 #include "simulation/vehicle_log.h"
 

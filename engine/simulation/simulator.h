@@ -13,6 +13,17 @@
 
 namespace tandem {
 
+// Add the cost of the vehicle in the log, of type `k` in problem `b`.
+void add_cost(const Instance& instance, const Setting& setting, const VehicleLog& log, Int b, Int k,
+              Cost& cost);
+
+// Tell whether a vehicle of type `k` that has made so many trips may begin one at a depot, by what
+// is left there.
+bool may_take_off(const Instance& instance, const State& state, Int r, Int k, Int depot, Int trips);
+
+// Add what the open vehicle has taken to what those closed before have. In place.
+void note_taken(const Instance& instance, State& state, Int r);
+
 enum class ActionKind : Int { drive, launch, end_trip, open };
 
 constexpr Int num_kinds = 4;

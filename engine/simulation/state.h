@@ -182,6 +182,11 @@ struct DroneKind {
         return zones_at(zones, from) | zones_at(zones, customer) | zones_at(zones, to);
     }
 
+    // When it has served a customer that takes off at a node then.
+    Int ready(Int from, Int customer, Int takeoff) const {
+        return node[customer].end_of_service(takeoff + out(from, customer));
+    }
+
     // The flight to a customer, launched and recovered at these nodes.
     Flight flight(Int from, Int customer, Int to) const {
         return {type, node[customer], out(from, customer), home(customer, to),

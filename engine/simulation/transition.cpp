@@ -7,10 +7,8 @@
 #include "rules/hours.h"
 #include "rules/start.h"
 #include "simulation/aboard.h"
-#include "simulation/cost.h"
-#include "simulation/hubs.h"
 #include "simulation/lags.h"
-#include "simulation/meeting.h"
+#include "simulation/simulator.h"
 #include "simulation/vehicle_log.h"
 
 namespace tandem {
@@ -216,8 +214,7 @@ void board(const OpenVehicle& open, Drone& drone, Int sortie, Int node, Int take
     drone.sortie = sortie;
     drone.node = node;
     drone.takeoff = takeoff;
-    drone.ready =
-        drone_kind.node[node].end_of_service(takeoff + drone_kind.out(vehicle.node, node));
+    drone.ready = drone_kind.ready(vehicle.node, node, takeoff);
     ++vehicle.flying;
     vehicle.free = takeoff;
 }

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "rules/company.h"
-#include "simulation/hubs.h"
+#include "simulation/simulator.h"
 #include "simulation/vehicle_log.h"
 
 namespace tandem {

@@ -128,8 +128,7 @@ Int travelled_on(const Setting& setting, const VehicleLog& log, Int trips, Drive
         const auto [first, behind] = stops_of(log, trip);
         for (Int index = first + 1; index < behind; ++index) {
             const BegunLeg leg = leg_to(log, index);
-            travel += driven_between(setting, leg, driver);
-            if (follows_driver(setting.type)) come(setting, leg, driver);
+            travel += paused_leg(setting, leg).driven(driver);
         }
     }
     return travel;
@@ -225,7 +224,8 @@ private:
                 const LoggedStop& before = log_.stop[index - 1];
                 const BegunLeg leg{Rests(before.rests), begin_, before.node, node, leave_};
                 if (limits_timed_travel(setting_.type)) {
-                    travel_ += driven_between(setting_, leg, driver_);
+                    Driver counted = driver_;
+                    travel_ += paused_leg(setting_, leg).driven(counted);
                 }
                 arrival = come(setting_, leg, driver_);
                 if (arrival < 0 || (!writes && lacks_rest(arrival))) return false;
@@ -341,7 +341,7 @@ private:
         const bool may_be_sooner = writes && is_flying && order_may_change(setting_, node);
         if (!is_allowed(place, arrival, sortie.arrival) && !may_be_sooner) return std::nullopt;
         const Int start = place.start_of_service(arrival);
-        const Int served = place.end_of_service(arrival);
+        const Int served = drone_kind.ready(node, customer, takeoff);
         sortie.trial_takeoff = takeoff;
         sortie.trial_ready = served;
         if (!flown_.empty()) flown_[std::size_t(index)] = start;
@@ -480,17 +480,8 @@ Int excess_of_pairs(const Setting& setting, const VehicleLog& log) {
     const Int first = log.trip[log.count.trips - 1].first_stop;
     Int most = -far;
     const auto deliver = [&](Int node, Int start, Int behind) {
-        if (!is_delivery(setting.pair, node)) return;
-        for (const LoggedStop& before : log.stop.first(behind)) {
-            const Int pickup = before.node;
-            if (!brings(setting.pair, pickup, node)) continue;
-            const Int left = before.start + setting.node[pickup].service_duration();
-            most = std::max(most, excess_between(setting.max_between, pickup, left, start));
-        }
-        for (const LoggedSortie& sortie : log.sortie.first(log.count.sorties)) {
-            const Int pickup = sortie.node;
-            if (!brings(setting.pair, pickup, node)) continue;
-            most = std::max(most, excess_between(setting.max_between, pickup, sortie.ready, start));
+        if (is_delivery(setting.pair, node)) {
+            most = std::max(most, excess_under_way(setting, log, node, behind, start));
         }
     };
     for (Int index = first; index < log.count.stops; ++index) {
@@ -521,18 +512,33 @@ Int excess_in_air(const Setting& setting, const VehicleLog& log) {
 
 }  // namespace
 
+Int excess_under_way(const Setting& setting, const VehicleLog& log, Int delivery, Int behind,
+                     Int start) {
+    Int most = -far;
+    for (const LoggedStop& stop : log.stop.first(behind)) {
+        const Int pickup = stop.node;
+        if (!brings(setting.pair, pickup, delivery)) continue;
+        const Int left = stop.start + setting.node[pickup].service_duration();
+        most = std::max(most, excess_between(setting.max_between, pickup, left, start));
+    }
+    for (const LoggedSortie& sortie : log.sortie.first(log.count.sorties)) {
+        if (!brings(setting.pair, sortie.node, delivery)) continue;
+        most =
+            std::max(most, excess_between(setting.max_between, sortie.node, sortie.ready, start));
+    }
+    return most;
+}
+
 std::optional<Driver> driver_of(const Setting& setting, const VehicleLog& log, Int& driven) {
     const Int begin = log.trip[0].start;
-    const Speeds speeds = speeds_of(setting);
     Driver driver = driver_from(setting.type, begin);
     driven = 0;
     for (Int trip = 0; trip < log.count.trips; ++trip) {
         const Int behind = stops_of(log, trip).behind;
         for (Int index = log.trip[trip].first_stop + 1; index < behind; ++index) {
-            const auto [rests, since, origin, to, leave] = leg_to(log, index);
-            RestedLeg leg(speeds, since, driver, stood_at(setting, origin), leave,
-                          travel_of(setting, origin, to));
-            const bool done = drive_with(leg, rests);
+            const PausedLeg begun = paused_leg(setting, leg_to(log, index));
+            RestedLeg leg = begun.by(driver);
+            const bool done = drive_with(leg, begun.rests);
             driver = leg.driver();
             if (!done || may_drive(setting.type, driver, leg.time()) < 0) return std::nullopt;
             driven += leg.driven();

@@ -90,14 +90,6 @@ inline bool may_drive_by(const Setting& setting, Leg legs, Int here, Int node) {
            may_drive_home(setting, legs + leg_of(setting, here, node), node);
 }
 
-// When a leg ends, by when it begins, without setup.
-inline auto travel_without_setup(const Setting& setting, Int origin, Int to) {
-    const Int setup = is_steady(setting.type) ? setup_after(setting.setup, origin, to) : 0;
-    return [&setting, duration = setting.drive(origin, to) - setup](Int leave) {
-        return leg_end(setting.type, setting.profile_time, setting.profile_factor, duration, leave);
-    };
-}
-
 // How long its driver is at other work at a node, however long he waits; reloading isn't counted.
 inline Int stood_at(const Setting& setting, Int node) {
     return node < setting.num_depots ? 0 : setting.node[node].service_duration();
@@ -117,40 +109,25 @@ struct BegunLeg {
     Int leave;
 };
 
+inline PausedLeg paused_leg(const Setting& setting, const BegunLeg& begun) {
+    const auto& [rests, begin, origin, to, leave] = begun;
+    return {speeds_of(setting),       rests, begin, leave, travel_of(setting, origin, to),
+            stood_at(setting, origin)};
+}
+
 // As `travel_arrival`, with breaks; -1 if one can't be taken.
 //
 // In place: what is counted of the driver, where that is followed.
 inline Int come(const Setting& setting, const BegunLeg& begun, Driver& driver) {
     const auto& [rests, begin, origin, to, leave] = begun;
-    if (follows_driver(setting.type)) {
-        const Speeds speeds = speeds_of(setting);
-        RestedLeg leg(speeds, begin, driver, stood_at(setting, origin), leave,
-                      travel_of(setting, origin, to));
-        if (!drive_with(leg, rests)) return -1;
-        driver = leg.driver();
-        return leg.time() + setup_after(setting.setup, origin, to);
+    if (!follows_driver(setting.type)) {
+        if (rests.count() == 0) return travel_arrival(setting, origin, to, leave);
+        if (rests_in_gaps(setting.type)) {
+            return travel_arrival(setting, origin, to, leave) + duration_of(setting.type, rests);
+        }
     }
-    if (rests.count() == 0) return travel_arrival(setting, origin, to, leave);
-    if (rests_in_gaps(setting.type)) {
-        return travel_arrival(setting, origin, to, leave) + duration_of(setting.type, rests);
-    }
-    const std::optional<Int> arrival =
-        arrival_after(setting.type, rests, begin, leave, travel_without_setup(setting, origin, to));
+    const std::optional<Int> arrival = paused_leg(setting, begun).end(driver);
     return arrival ? *arrival + setup_after(setting.setup, origin, to) : -1;
-}
-
-// For how long the truck is on a leg with breaks, by what is counted of its driver before.
-inline Int driven_between(const Setting& setting, const BegunLeg& begun, const Driver& driver) {
-    const auto& [rests, begin, origin, to, leave] = begun;
-    if (follows_driver(setting.type)) {
-        const Speeds speeds = speeds_of(setting);
-        RestedLeg leg(speeds, begin, driver, stood_at(setting, origin), leave,
-                      travel_of(setting, origin, to));
-        drive_with(leg, rests);
-        return leg.driven();
-    }
-    return driven_on_leg(setting.type, rests, begin, leave,
-                         travel_without_setup(setting, origin, to));
 }
 
 // Whether the truck isn't on legs for too long by the log, if that hangs on when they are driven.
@@ -185,6 +162,11 @@ Retimed retime(const Setting& setting, VehicleLog& log, Int first_trip, Int star
 // Tell whether a later start of `first_trip` costs nothing: no more lateness, no longer sortie, no
 // later end than logged, and no parcel too long aboard. Writes trial times of sorties alone.
 bool costs_nothing(const Setting& setting, VehicleLog& log, Int first_trip, Int start);
+
+// By how much a parcel is too long under way that is delivered then, as far as it is picked up
+// before a stop, or by drones; negative if it isn't yet.
+Int excess_under_way(const Setting& setting, const VehicleLog& log, Int delivery, Int behind,
+                     Int start);
 
 // Whether trips may have to be held back.
 inline bool holds_count(const Setting& setting) {

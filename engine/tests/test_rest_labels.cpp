@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "search/route/rest_labels.h"
+#include "search/route/rests.h"
 
 namespace tandem {
 namespace {

@@ -7,7 +7,6 @@
 #include "randomness.h"
 #include "search/moves/operations.h"
 #include "search/moves/split.h"
-#include "search/moves/splitter.h"
 
 namespace tandem {
 namespace {

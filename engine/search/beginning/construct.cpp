@@ -1,5 +1,4 @@
-#include "search/beginning/construct.h"
-
+#include "search/beginning/plans.h"
 #include "search/route/fairness.h"
 #include "search/route/state.h"
 #include "search/search.h"

@@ -1,6 +1,5 @@
-#include "search/beginning/either_way.h"
-
 #include "rules/shift.h"
+#include "search/beginning/savings.h"
 
 namespace tandem {
 

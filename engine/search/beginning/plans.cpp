@@ -4,7 +4,6 @@
 
 #include "rules/drone_types.h"
 #include "rules/hub.h"
-#include "search/beginning/translate.h"
 #include "search/route/lags.h"
 #include "search/search.h"
 

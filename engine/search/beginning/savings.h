@@ -73,4 +73,8 @@ void add_cargo(View<Cargo, 1> front, View<const Cargo, 1> rear);
 // Joins the route that ends at one and that which begins at the other, pair after pair.
 void join(const ProblemData& data, Int k, Int ranks, View<const Int, 1> keys, const Beside& beside);
 
+// Joins routes at either end, pair after pair. As `join`.
+void join_either_way(const ProblemData& data, Int k, Int ranks, View<const Int, 1> keys,
+                     const Beside& beside);
+
 }  // namespace tandem

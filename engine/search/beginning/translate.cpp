@@ -1,14 +1,11 @@
-#include "search/beginning/translate.h"
-
 #include "rules/hub.h"
 #include "search/beginning/plans.h"
 #include "search/insertion/alone.h"
-#include "search/moves/two_opt_star.h"
+#include "search/moves/exchanges.h"
 #include "search/route/fairness.h"
 #include "search/route/freshness.h"
 #include "search/route/lags.h"
 #include "search/route/refresh.h"
-#include "search/route/settling.h"
 #include "search/search.h"
 
 namespace tandem {

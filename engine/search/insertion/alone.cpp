@@ -1,7 +1,7 @@
 #include "search/insertion/alone.h"
 
 #include "rules/breaks.h"
-#include "search/insertion/parts_alone.h"
+#include "search/insertion/shipments.h"
 #include "search/route/refresh.h"
 
 namespace tandem {

@@ -1,11 +1,10 @@
 
 
-#include "search/insertion/parts_alone.h"
 #include "search/insertion/proposal.h"
-#include "search/route/block.h"
+#include "search/insertion/shipments.h"
 #include "search/route/ends.h"
 #include "search/route/refresh.h"
-#include "search/route/resting.h"
+#include "search/route/rests.h"
 #include "search/search.h"
 
 namespace tandem {

@@ -1,8 +1,6 @@
-#include "search/insertion/flown_pairs.h"
-
+#include "search/insertion/shipments.h"
 #include "search/insertion/trip_scan.h"
 #include "search/route/refresh.h"
-#include "search/scratch.h"
 
 namespace tandem {
 namespace {

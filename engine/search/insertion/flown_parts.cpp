@@ -1,7 +1,6 @@
-#include "search/insertion/flown_parts.h"
-
 #include <utility>
 
+#include "search/insertion/shipments.h"
 #include "search/insertion/trip_scan.h"
 
 namespace tandem {

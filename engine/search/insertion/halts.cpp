@@ -1,7 +1,5 @@
 
 #include "rules/launch_place.h"
-#include "search/insertion/listing.h"
-#include "search/insertion/new_trips.h"
 #include "search/insertion/offers.h"
 #include "search/route/drone_data.h"
 #include "search/route/refresh.h"

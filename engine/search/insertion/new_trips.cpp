@@ -1,10 +1,6 @@
-#include "search/insertion/new_trips.h"
-
 #include <utility>
 
-#include "rules/segment.h"
-#include "rules/shift.h"
-#include "search/route/edit.h"
+#include "search/insertion/offers.h"
 #include "search/route/goods.h"
 
 namespace tandem {

@@ -2,13 +2,9 @@
 
 #include "rules/launch_place.h"
 #include "search/insertion/cheapest_stop.h"
-#include "search/insertion/least.h"
-#include "search/insertion/listing.h"
-#include "search/insertion/new_trips.h"
 #include "search/route/drone_data.h"
 #include "search/route/ends.h"
 #include "search/route/goods.h"
-#include "search/route/least_cost.h"
 #include "search/route/refresh.h"
 #include "search/route/stop_loads.h"
 

@@ -4,8 +4,34 @@
 #pragma once
 
 #include "search/insertion/best.h"
+#include "search/scratch.h"
 
 namespace tandem {
+
+// What it saves at most that a route's vehicle serves a customer, beside all that it drives and
+// flies further: what its waiting costs, less what it costs that it is this vehicle.
+inline double most_saved(const ProblemData& data, const Fleet& fleet, Int slot, Int node) {
+    return fleet.early[slot] - vehicle_cost_at(data.vehicle_cost, fleet.route[slot].type, node);
+}
+
+// Lists an insertion that costs at least `cost`; returns it, to complete it. Were there no room, it
+// would take the place of the last one.
+inline Offer& add_offer(const Searcher& searcher, double cost, Int slot, Int first, Int last) {
+    Scratch& scratch = *searcher.scratch;
+    if (scratch.offers < scratch.offer.size()) ++scratch.offers;
+    const Int index = scratch.offers - 1;
+    scratch.least[index] = cost;
+    return scratch.offer[index].between(slot, searcher.now.route[slot].type, first, last);
+}
+
+// Tells whether a customer may join a trip's up to stop `p`, or the rest, by what is carried.
+bool part_fits(const ProblemData& data, const Fleet& fleet, Int slot, Int p, Int node, bool front);
+
+// Tells whether a vehicle of type `k` may serve a customer on a trip of its own, by loads.
+bool may_begin(const ProblemData& data, Int k, Int node);
+
+// Tells whether a simple route may have a trip more as a move says.
+bool more_trips_fit(const ProblemData& data, const Fleet& fleet, const Move& move, Int node);
 
 // From where to where a drone is wanted, in half stops: a stop to come is between two.
 struct Stretch {

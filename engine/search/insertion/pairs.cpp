@@ -1,17 +1,11 @@
-#include "search/insertion/pairs.h"
-
 #include <tuple>
 
 #include "search/insertion/alone.h"
-#include "search/insertion/flown_pairs.h"
-#include "search/insertion/flown_parts.h"
-#include "search/insertion/parts.h"
-#include "search/insertion/parts_alone.h"
+#include "search/insertion/shipments.h"
 #include "search/insertion/trip_scan.h"
 #include "search/route/freshness.h"
 #include "search/route/goods.h"
 #include "search/route/refresh.h"
-#include "search/scratch.h"
 
 namespace tandem {
 namespace {

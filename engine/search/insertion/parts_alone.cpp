@@ -1,6 +1,5 @@
-#include "search/insertion/parts_alone.h"
-
 #include "search/insertion/alone.h"
+#include "search/insertion/shipments.h"
 #include "search/route/refresh.h"
 
 namespace tandem {

@@ -3,7 +3,7 @@
 #include "search/insertion/alone.h"
 #include "search/insertion/cheapest_stop.h"
 #include "search/insertion/offers.h"
-#include "search/insertion/pairs.h"
+#include "search/insertion/shipments.h"
 #include "search/route/ends.h"
 #include "search/route/fairness.h"
 #include "search/route/goods.h"

@@ -1,7 +1,7 @@
 #include "search/linked/chain.h"
 
 #include "search/linked/aboard.h"
-#include "search/linked/retype.h"
+#include "search/linked/turn.h"
 
 namespace tandem {
 

@@ -1,12 +1,10 @@
-#include "search/linked/insertion.h"
-
 #include <cmath>
 
 #include "search/insertion/places.h"
 #include "search/linked/aboard.h"
 #include "search/linked/chain.h"
-#include "search/linked/retype.h"
 #include "search/linked/room.h"
+#include "search/linked/turn.h"
 #include "search/moves/recreate.h"
 
 namespace tandem {

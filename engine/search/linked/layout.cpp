@@ -1,8 +1,8 @@
 
 #include <utility>
 
-#include "search/linked/strings.h"
-#include "search/linked/tying.h"
+#include "search/linked/store.h"
+#include "search/linked/turn.h"
 #include "search/search.h"
 
 namespace tandem {

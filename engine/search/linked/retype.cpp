@@ -1,6 +1,5 @@
-#include "search/linked/retype.h"
-
 #include "search/linked/aboard.h"
+#include "search/linked/turn.h"
 
 namespace tandem {
 

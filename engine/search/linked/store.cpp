@@ -2,11 +2,7 @@
 
 #include "search/anneal.h"
 #include "search/linked/chain.h"
-#include "search/linked/insertion.h"
-#include "search/linked/retype.h"
-#include "search/linked/strings.h"
-#include "search/linked/tails.h"
-#include "search/linked/tying.h"
+#include "search/linked/turn.h"
 #include "search/search.h"
 
 namespace tandem {

@@ -1,7 +1,6 @@
-#include "search/linked/strings.h"
-
 #include "search/linked/aboard.h"
 #include "search/linked/chain.h"
+#include "search/linked/turn.h"
 #include "search/moves/ruin.h"
 #include "search/route/refresh.h"
 

@@ -1,8 +1,7 @@
-#include "search/linked/tails.h"
-
 #include "search/linked/aboard.h"
 #include "search/linked/chain.h"
-#include "search/moves/two_opt_star.h"
+#include "search/linked/turn.h"
+#include "search/moves/exchanges.h"
 #include "search/route/refresh.h"
 
 namespace tandem {

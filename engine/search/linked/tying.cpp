@@ -1,7 +1,6 @@
-#include "search/linked/tying.h"
-
 #include "search/linked/aboard.h"
 #include "search/linked/chain.h"
+#include "search/linked/store.h"
 #include "search/route/refresh.h"
 #include "search/search.h"
 

@@ -1,10 +1,8 @@
-#include "search/moves/other_end.h"
-
 #include <utility>
 
 #include "search/insertion/trip_scan.h"
+#include "search/moves/exchanges.h"
 #include "search/route/refresh.h"
-#include "search/scratch.h"
 
 namespace tandem {
 namespace {

@@ -27,4 +27,12 @@ void sort_absent(const ProblemData& data, const Searcher& searcher, Int first, I
 bool recreate(const ProblemData& data, const Searcher& searcher, Int first, bool scan_all,
               double spare);
 
+constexpr Int any_order = -1;  // no order of insertion in particular: one is drawn each turn
+
+// Ruins and recreates `turns` times, as `search/anneal` says.
+void anneal_routes(const ProblemData& data, Searcher& searcher, Int turns);
+
+// Inserts all who are left out in an order, as `search/anneal` says.
+void insert_all(const ProblemData& data, Searcher& searcher, Int order);
+
 }  // namespace tandem

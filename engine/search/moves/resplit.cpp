@@ -6,8 +6,7 @@
 #include "search/moves/halting.h"
 #include "search/moves/operations.h"
 #include "search/moves/rewrite.h"
-#include "search/moves/splitter.h"
-#include "search/route/resting.h"
+#include "search/route/rests.h"
 
 namespace tandem {
 namespace {

@@ -1,7 +1,6 @@
-#include "search/moves/retype.h"
-
 #include "randomness.h"
 #include "rules/launch_place.h"
+#include "search/moves/exchanges.h"
 #include "search/route/refresh.h"
 #include "search/route/stop_loads.h"
 #include "search/route/vehicles.h"

@@ -1,7 +1,7 @@
 // Write a part of a route anew.
 #pragma once
 
-#include "search/moves/two_opt_star.h"
+#include "search/moves/exchanges.h"
 #include "search/route/edit.h"
 #include "search/route/refresh.h"
 #include "search/route/routes.h"

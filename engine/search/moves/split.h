@@ -30,4 +30,21 @@ void measure(const ProblemData& data, Int k, View<Line, 1> line, Int length);
 // Return what the operations that are noted in the line cost.
 double present_cost(const ProblemData& data, Int k, View<const Line, 1> line, Int length);
 
+// Cut the line into operations at least cost; return that. In place; infinite if it can't be cut.
+double split(const ProblemData& data, Int k, View<Line, 1> line, Int length, SplitScratch& scratch);
+
+// Which places of a line were changed, how it was split before, and how much more it may cost at
+// most.
+struct Changed {
+    Places places;
+    const SplitScratch& before;
+    double most;
+};
+
+// Cut a changed line as `split` does; infinite if it would cost more than it may.
+//
+// What comes before the change isn't looked at again, nor what comes behind it once that tells.
+double split_changed(const ProblemData& data, Int k, View<Line, 1> line, Int length,
+                     const Changed& changed, SplitScratch& scratch);
+
 }  // namespace tandem

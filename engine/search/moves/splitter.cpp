@@ -1,6 +1,5 @@
-#include "search/moves/splitter.h"
-
 #include "search/moves/operations.h"
+#include "search/moves/split.h"
 
 namespace tandem {
 namespace {

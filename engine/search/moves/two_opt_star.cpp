@@ -1,8 +1,7 @@
-#include "search/moves/two_opt_star.h"
-
 #include <limits>
 
 #include "rules/shift.h"
+#include "search/moves/exchanges.h"
 #include "search/route/edit.h"
 #include "search/route/refresh.h"
 #include "search/route/state.h"

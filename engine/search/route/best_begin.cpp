@@ -1,7 +1,6 @@
-#include "search/route/best_begin.h"
-
 #include <tuple>
 
+#include "search/route/breaks.h"
 #include "search/route/routes.h"
 
 namespace tandem {

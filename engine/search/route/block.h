@@ -70,13 +70,6 @@ struct Truck {
         return from.gap - (is_steady(type) ? setup_after(data.setup, from.node, to) : 0);
     }
 
-    // Return when a leg from a stop to a node ends, left at `leave`, without breaks and setup.
-    auto legs_end(const Stop& from, Int to) const {
-        return [this, duration = duration_of_leg(from, to)](Int leave) {
-            return leg_end(type, speeds.times, speeds.factors, duration, leave);
-        };
-    }
-
     // Return how long its driver is at other work at a stop, however long he waits.
     Int stood_at(const Stop& stop) const {
         if (stop.kind == customer_stop) return places[stop.node].service_duration();
@@ -86,32 +79,17 @@ struct Truck {
     // Whether when a leg ends that begins at a stop hangs on pauses.
     bool pauses(const Stop& from) const { return follows || (resting && from.rests != 0); }
 
+    // Return a leg from a stop to a node, left at `leave`, with the breaks there.
+    PausedLeg leg_behind(const Stop& from, Int to, Int leave) const {
+        return {speeds, Rests(from.rests), begin, leave, duration_of_leg(from, to), stood_at(from)};
+    }
+
     // Return when it comes from a stop to a node, with the breaks between; `far` if one can't be.
     //
     // In place: what is counted of its driver, where that is followed.
     Int come(const Stop& from, Int to, Int leave, Driver& driver) const {
-        const Int setup = setup_after(data.setup, from.node, to);
-        if (follows) {
-            RestedLeg leg(speeds, begin, driver, stood_at(from), leave, duration_of_leg(from, to));
-            if (!drive_with(leg, Rests(from.rests))) return far;
-            driver = leg.driver();
-            return leg.time() + setup;
-        }
-        const std::optional<Int> arrival =
-            arrival_after(type, Rests(from.rests), begin, leave, legs_end(from, to));
-        return arrival ? *arrival + setup : far;
-    }
-
-    // Return how long it is on a timed leg from a stop to a node. In place, as `come`.
-    Int drive(const Stop& from, Int to, Driver& driver) const {
-        if (follows) {
-            RestedLeg leg(speeds, begin, driver, stood_at(from), from.leave,
-                          duration_of_leg(from, to));
-            drive_with(leg, Rests(from.rests));
-            driver = leg.driver();
-            return leg.driven();
-        }
-        return driven_on_leg(type, Rests(from.rests), begin, from.leave, legs_end(from, to));
+        const std::optional<Int> arrival = leg_behind(from, to, leave).end(driver);
+        return arrival ? *arrival + setup_after(data.setup, from.node, to) : far;
     }
 
     // Return when what it does at a stop by itself ends.

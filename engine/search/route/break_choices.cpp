@@ -1,9 +1,7 @@
-#include "search/route/break_choices.h"
-
 #include <utility>
 
 #include "search/route/block.h"
-#include "search/route/break_ways.h"
+#include "search/route/breaks.h"
 #include "search/route/look_backs.h"
 #include "search/route/pricing.h"
 #include "search/route/routes.h"
@@ -188,7 +186,7 @@ private:
     TimeSegment travel(Int p, TimeSegment leave) const {
         const Int to = stops_[p + 1].node;
         if (is_joined()) return behind(leave, truck_.duration_of_leg(stops_[p], to));
-        return {none, truck_.legs_end(stops_[p], to)(leave.c)};
+        return {none, truck_.leg_behind(stops_[p], to, leave.c).travel()(leave.c)};
     }
 
     // Have a way drive the leg behind stop `p`, with no more breaks and with each more.

@@ -1,13 +1,8 @@
-#include "search/route/break_moves.h"
 
-#include <utility>
 
-#include "search/route/break_choices.h"
 #include "search/route/freshness.h"
-#include "search/route/least_cost.h"
 #include "search/route/pricing.h"
-#include "search/route/rest_placing.h"
-#include "search/route/settling.h"
+#include "search/route/rests.h"
 
 namespace tandem {
 namespace {

@@ -1,6 +1,8 @@
 // Which breaks a route has, and where they are taken.
 #pragma once
 
+#include <vector>
+
 #include "rules/driving.h"
 #include "rules/hub.h"
 #include "search/route/lags.h"
@@ -159,5 +161,143 @@ private:
     Int count_ = 0;
     std::array<One, most_breaks> one_{};
 };
+
+// When a customer is reached and served who costs by when, by when the route begins.
+struct TimedCustomer {
+    TimeSegment reached, served;
+    Int node;
+    std::int32_t before;  // number of the one before on the route, -1 if there is none
+};
+
+// A route by when it begins: its end, how much of it isn't paid, and the number of the last of
+// those `timed`.
+struct AnyBegin {
+    Interval begins;
+    TimeSegment end;
+    Int unpaid;
+    std::int32_t last;
+};
+
+// A route that begins at an instant, what its work costs, and that customers are served too late or
+// waited for.
+struct Begun {
+    Int begin, end, working;
+    double work, missed;
+
+    double cost() const { return work + missed; }
+};
+
+// Looks for when routes of one type had better begin. Keeps what it needs for the next.
+class BestBegin {
+public:
+    BestBegin(const ProblemData& data, Int k)
+        : data_(data), type_(data.type[k]), rate_(data.rate[k]) {}
+
+    // Return how a route goes that begins when that costs least; of several the one that ends first
+    // and works least. Nothing if it works too long anyway.
+    const std::optional<Begun>& of(const AnyBegin& route, const std::vector<TimedCustomer>& timed);
+
+private:
+    // From when on it costs so much more, once and per ms, that the route begins later.
+    struct Turn {
+        Int begin;
+        double once, slope;
+    };
+
+    void note(const TimedCustomer& customer, Int first);
+    void begin_at(const AnyBegin& route, Int begin, double missed);
+
+    const ProblemData& data_;
+    const VehicleType& type_;
+    const Rate& rate_;
+    std::vector<Turn> turns_;
+    std::optional<Begun> best_;
+};
+
+// Instants at which a route may begin by which ways are compared where customers cost by when.
+constexpr std::size_t most_compared = 3;
+
+// A break that is taken.
+struct Taken {
+    PlacedBreaks::One one;
+    std::int32_t before;
+};
+
+// A break that may be taken, or is over before the route begins.
+struct Chosen {
+    Int number;
+    bool is_over;
+};
+
+// What customers cost on a way by when they are served.
+struct Times {
+    std::int32_t timed = -1;  // the last of them
+    double late = 0.0;        // what these cost who are served too late, at the soonest begin
+    std::array<double, most_compared> missed{};  // all that these cost, by begins compared
+};
+
+struct NoTimes {};
+
+// A way to have come somewhere; lean where customers cost the same at any time.
+template <bool is_lean>
+struct Way : std::conditional_t<is_lean, NoTimes, Times> {
+    TimeSegment now;            // when the truck is there, by when the route begins
+    Interval begins;            // for which that holds
+    std::int32_t next = 0;      // the first break, of those due, that may still be taken
+    std::int32_t left_out = 0;  // bits of those before that aren't
+    std::int32_t last = -1;     // break taken
+    std::int32_t noted = -1;    // the last one, likewise
+};
+
+// A way on a leg: when the truck stands where it last had a break, and when it is at its end.
+template <bool is_lean>
+struct OnLeg {
+    Way<is_lean> way;
+    TimeSegment here, there;
+    RestPlace place;
+};
+
+// Where breaks are taken, and what that makes of a route that begins when that costs least.
+struct BreakChoice {
+    PlacedBreaks placed;
+    Begun timing;
+};
+
+// Return all ways to take breaks on a loaded route that may be the cheapest, none that breaks a
+// rule by itself, or costs `most_late` as customers are served too late; the cheapest first.
+//
+// By dynamic programming along the route: of two ways to have taken as many breaks, one is no worse
+// that is nowhere later, may begin in the same interval, costs no more by when customers are
+// served, and was at those later whom others look back to.
+std::vector<BreakChoice> break_choices(const ProblemData& data, const Route& route,
+                                       View<const Stop, 1> stops, double most_late);
+
+// Write when each stop of a loaded route may be left at the soonest, whichever breaks are taken
+// before. In place.
+void note_soonest(const ProblemData& data, const Route& route, View<Stop, 1> stops);
+
+// What is known of a route's cost: what it would be at least were nobody served too late, with how
+// much work, and what it has to be below.
+struct CostBounds {
+    double in_time;
+    double bar;
+    Int working = 0;
+};
+
+// Price a loaded route by the cheapest way to take its breaks, of those that `break_choices` knows.
+// In place; false if none does, or is below the bar.
+bool price_choices(const ProblemData& data, const Fleet& fleet, Int slot, const CostBounds& bounds,
+                   bool& settled);
+
+// Price a route that can't begin sooner, as breaks that follow its departure would come too soon:
+// as late as it could without them. In place; false if that doesn't do.
+bool begin_late(const ProblemData& data, const Fleet& fleet, Int slot, bool& settled);
+
+// Tell whether a priced route might cost less, at least so much, were its breaks elsewhere.
+bool may_move_breaks(const ProblemData& data, const Fleet& fleet, Int slot, double least);
+
+// Let the breaks of a priced route be elsewhere, or the route begin later, if that costs less. In
+// place; false if it can't be driven any more. Where there is a bar, its cost alone is written.
+bool move_breaks(const ProblemData& data, const Fleet& fleet, Int slot, double bar, bool& settled);
 
 }  // namespace tandem

@@ -1,4 +1,5 @@
-// Who goes with whom: goods that each trip and each route bars, and whom they keep together.
+// Who goes with whom: goods that each trip and each route bars, whom they keep together, and whole
+// shipments.
 #pragma once
 
 #include "rules/company.h"
@@ -39,5 +40,10 @@ inline bool goods_may_follow(const ProblemData& data, const Fleet& fleet, Int sl
 // Return the only route that may serve a customer since others are there; `nowhere` if any may, and
 // `elsewhere` if none.
 Int home_of(const ProblemData& data, const Searcher& searcher, Int node);
+
+// Tell whether each trip serves whole shipments, each picked up first, and unloads from a stack
+// what lies on it.
+bool keeps_pairs(const ProblemData& data, const Route& route, View<const Stop, 1> stops,
+                 View<const Trip, 1> trips, View<const Sortie, 1> sorties);
 
 }  // namespace tandem

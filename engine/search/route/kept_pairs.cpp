@@ -1,4 +1,4 @@
-#include "search/route/kept_pairs.h"
+#include "search/route/goods.h"
 
 namespace tandem {
 namespace {

@@ -1,8 +1,6 @@
-#include "search/route/least_cost.h"
 
-#include "search/route/drone_data.h"
 #include "search/route/refresh.h"
-#include "search/route/rest_placing.h"
+#include "search/route/rests.h"
 #include "search/route/routes.h"
 #include "search/route/stop_loads.h"
 

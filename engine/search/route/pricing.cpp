@@ -4,7 +4,6 @@
 #include "search/route/charging.h"
 #include "search/route/freshness.h"
 #include "search/route/lags.h"
-#include "search/route/settling.h"
 #include "search/route/stop_loads.h"
 
 namespace tandem {

@@ -1,4 +1,5 @@
-// What a route costs whose trips are where they are, and when they begin.
+// What a route costs whose trips are where they are, at least and once they begin as late as that
+// costs nothing.
 #pragma once
 
 #include "search/route/layout.h"
@@ -20,5 +21,25 @@ bool price_driven(const ProblemData& data, const Fleet& fleet, Int slot, bool& s
 // Write times and cost of a route whose loads are known and whose first trip begins no sooner than
 // its release says. In place, as `price_timed`.
 bool price_loaded(const ProblemData& data, const Fleet& fleet, Int slot, bool& settled);
+
+// Let every trip begin as soon as possible. In place.
+void clear_holds(const Route& route, View<Stop, 1> stops, View<const Trip, 1> trips);
+
+// Let each trip of a timed route begin as late as costs nothing. In place; false if a rule is
+// broken.
+bool settle(const ProblemData& data, Route& route, View<Stop, 1> stops, View<const Trip, 1> trips,
+            View<Sortie, 1> sorties);
+
+// Return how long a route could work longer at no cost.
+Int spare_time(const ProblemData& data, const Route& route, View<const Stop, 1> stops);
+
+// What a route costs at least, and how long its vehicle works then.
+struct LeastPrice {
+    double cost;
+    Int working;
+};
+
+// Return what a route costs at least whose driver rests, once its trips are loaded.
+LeastPrice least_cost(const ProblemData& data, const Fleet& fleet, Int slot);
 
 }  // namespace tandem

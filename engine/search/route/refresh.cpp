@@ -1,19 +1,12 @@
 #include "search/route/refresh.h"
 
 #include "randomness.h"
-#include "rules/hours.h"
-#include "search/route/break_choices.h"
-#include "search/route/break_moves.h"
 #include "search/route/charging.h"
 #include "search/route/ends.h"
 #include "search/route/freshness.h"
 #include "search/route/goods.h"
 #include "search/route/hubs.h"
-#include "search/route/kept_pairs.h"
-#include "search/route/least_cost.h"
-#include "search/route/rest_placing.h"
-#include "search/route/resting.h"
-#include "search/route/settling.h"
+#include "search/route/rests.h"
 #include "search/route/stop_loads.h"
 
 namespace tandem {

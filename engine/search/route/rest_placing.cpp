@@ -1,7 +1,7 @@
 
 
 #include "search/route/rarer.h"
-#include "search/route/rest_ways.h"
+#include "search/route/rests.h"
 
 namespace tandem {
 namespace {

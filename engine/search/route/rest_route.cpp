@@ -1,4 +1,4 @@
-#include "search/route/rest_route.h"
+#include "search/route/rests.h"
 
 namespace tandem {
 namespace {

@@ -1,4 +1,4 @@
-#include "search/route/rest_ways.h"
+#include "search/route/rests.h"
 
 namespace tandem {
 namespace {

@@ -1,10 +1,5 @@
-#include "search/route/resting.h"
-
-#include <utility>
-
-#include "search/route/breaks.h"
 #include "search/route/refresh.h"
-#include "search/route/rest_placing.h"
+#include "search/route/rests.h"
 #include "search/route/routes.h"
 
 namespace tandem {

@@ -1,12 +1,9 @@
 #include "search/route/routes.h"
 
 #include "rules/launch_place.h"
-#include "search/route/block.h"
-#include "search/route/breaks.h"
 #include "search/route/ends.h"
 #include "search/route/flown_trips.h"
-#include "search/route/rest_placing.h"
-#include "search/route/resting.h"
+#include "search/route/rests.h"
 
 namespace tandem {
 
@@ -62,7 +59,7 @@ Int timed_travel(const Truck& truck, View<const Stop, 1> stops) {
     Driver driver = driver_from(truck.type, truck.begin);
     for (Int p = 0; p + 1 < stops.size(); ++p) {
         if (stops[p].kind == end_stop) continue;
-        travel += truck.drive(stops[p], stops[p + 1].node, driver);
+        travel += truck.leg_behind(stops[p], stops[p + 1].node, stops[p].leave).driven(driver);
     }
     return travel;
 }

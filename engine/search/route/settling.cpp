@@ -1,10 +1,6 @@
-#include "search/route/settling.h"
-
-#include "rules/hours.h"
-#include "search/route/breaks.h"
 #include "search/route/freshness.h"
-#include "search/route/rest_placing.h"
-#include "search/route/resting.h"
+#include "search/route/pricing.h"
+#include "search/route/rests.h"
 
 namespace tandem {
 namespace {
