@@ -123,8 +123,7 @@ void describe_flight(const Setting& setting, View<const Int, 1> neighbours,
     const View<const Int, 1> onward = setting.drive[node], home = setting.fly_home[node];
     const Int takeoff = candidate.outlook.arrival - setting.fly(here, node);
     const Int ready = candidate.outlook.start + setting.node_by_air[node].service_duration();
-    Int soonest = unlimited, wait = unlimited, detour = unlimited;
-    Int seen = 0;
+    Int soonest = unlimited, wait = unlimited, detour = unlimited, seen = 0;
     for (const Int other : neighbours) {
         if (other < 0 || seen == num_prospects) break;
         if (served[other] || unreachable(home[other])) continue;

@@ -52,8 +52,7 @@ public:
     }
 
 private:
-    Int count_ = 0;
-    Int here_ = 0;
+    Int count_ = 0, here_ = 0;
     Row<Int> action_, token_;
     Row<Outlook> outlook_;
     Row<ActionFeatures> feature_;

@@ -218,8 +218,7 @@ private:
     Driver driver_;
     Int time_;
     LegLeft left_;
-    Int driven_ = 0;
-    Int stood_ = 0;
+    Int driven_ = 0, stood_ = 0;
 };
 
 // Let a driver take breaks and rests on a leg that is begun, and drive on to its end. In place;
@@ -379,8 +378,7 @@ private:
     Rests planned_;     // likewise at the end
     const Opens& opens_;
     const Ends& ends_;
-    bool is_under_way_ = false;
-    bool is_there_ = false;
+    bool is_under_way_ = false, is_there_ = false;
 };
 
 }  // namespace tandem

@@ -66,8 +66,8 @@ Int excess_of_lags(View<const Lag, 1> lags, Int begun, const StartAt& start_at) 
 // them; `is_served` tells who was.
 template <class IsServed>
 Int num_forestalled(View<const Lag, 1> lags, const IsServed& is_served) {
-    return std::count_if(lags.begin(), lags.end(),
-                         [&](const Lag& lag) { return lag.node >= 0 && !is_served(lag.node); });
+    return std::ranges::count_if(
+        lags, [&](const Lag& lag) { return lag.node >= 0 && !is_served(lag.node); });
 }
 
 // Until when service has to begin at a customer, for that of one behind him to begin at `start`;

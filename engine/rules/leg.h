@@ -20,8 +20,7 @@ inline Leg operator-(Leg a, Leg b) { return {a.duration - b.duration, a.distance
 
 // The legs to a customer and from there, and how much further that is than the direct way.
 struct Detour {
-    Leg out;
-    Leg on;
+    Leg out, on;
     Int distance;
 };
 

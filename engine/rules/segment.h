@@ -45,9 +45,7 @@ struct Rear {
 // A front of which it is known how long all takes that is no waiting, and when the route leaves at
 // the latest so that nothing is later or dearer for it.
 struct PaidFront {
-    Int time;
-    Int busy;
-    Int depart;
+    Int time, busy, depart;
 
     void drive(Int duration) {
         time += duration;
@@ -76,10 +74,7 @@ struct PaidFront {
 // A rear of which it is known how soon it may be reached, how long all takes that is no waiting,
 // and when the route ends at the soonest, however soon it is reached.
 struct PaidRear {
-    Int latest;
-    Int early;
-    Int busy;
-    Int end;
+    Int latest, early, busy, end;
 
     void drive(Int duration) {
         latest -= duration;

@@ -24,7 +24,7 @@ Fleet::Fleet(const ProblemData& data, const SearchRoom& room, Int nodes)
       sortie({room.routes + scratch_slots, room.sorties}, Filling::sparse),
       where({nodes}),
       used({data.num_types}) {
-    std::fill(where.begin(), where.end(), Place{nowhere, nowhere, nowhere});
+    std::ranges::fill(where, Place{nowhere, nowhere, nowhere});
 }
 
 Searcher::Searcher(const ProblemData& data, const SearchRoom& room)

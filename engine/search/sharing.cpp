@@ -15,8 +15,7 @@ namespace {
 // Routes of which a search takes some.
 struct TakenRoutes {
     const Fleet& from;
-    View<const Int, 1> slots;
-    View<const Int, 1> missing;
+    View<const Int, 1> slots, missing;
     View<const Int, 1> used;  // vehicles, by type
 };
 

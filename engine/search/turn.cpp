@@ -64,13 +64,10 @@ double draw_rise(const Searcher& searcher) {
 
 bool rarer_absences(const ProblemData& data, Searcher& searcher) {
     const View<Int, 1> absences = searcher.absences;
-    const View<const Int, 1> missing = searcher.missing;
-    const View<const Int, 1> absent = searcher.absent;
+    const View<const Int, 1> missing = searcher.missing, absent = searcher.absent;
     const Int num_missing = searcher.count->missing;
     const Int num_absent = searcher.count->absent;
-    Int before = 0;
-    Int after = 0;
-    Int more = 0;
+    Int before = 0, after = 0, more = 0;
     for (Int node : missing.first(num_missing)) {
         if (!data.must_serve[node]) continue;
         before += absences[node];

@@ -38,9 +38,7 @@ Int total_brought(const Setting& setting, const Vehicle& vehicle, View<const Dro
 // Of one tier, what a next stop takes, and what of pickups is aboard on leaving this stop and when
 // the truck is done at the next.
 struct Burden {
-    Amount demand;
-    Amount here;
-    Amount there;
+    Amount demand, here, there;
 };
 
 Burden burden_of(const Setting& setting, const Vehicle& vehicle, View<const Drone, 1> drones,
@@ -59,10 +57,7 @@ Burden burden_of(const Setting& setting, const Vehicle& vehicle, View<const Dron
 // The sums over all dimensions of what was picked up before and at the next stop, and what of it
 // comes aboard at both.
 struct PickedUp {
-    Int before;
-    Int there;
-    Int comes_here;
-    Int comes_there;
+    Int before, there, comes_here, comes_there;
 };
 
 PickedUp total_there(const Setting& setting, const Vehicle& vehicle, View<const Drone, 1> drones,

@@ -62,8 +62,7 @@ double load_distance(View<const Int, 2> legs, const Setting& setting, const Vehi
 void add_flights(const Instance& instance, const VehicleLog& log, Int b, Int row, Cost& cost) {
     const Rate& rate = instance.rate(b, row);
     const View<const Int, 2> flights = instance.distance[b][instance.type(b, row).drone_travel];
-    Int flown = 0;
-    Int airborne = 0;
+    Int flown = 0, airborne = 0;
     for (const LoggedSortie& sortie : log.sortie.first(log.count.sorties)) {
         if (sortie.row != row) continue;
         flown += flights(log.stop[sortie.launch_stop].node, sortie.node);

@@ -48,7 +48,7 @@ bool has_battery(const Setting& setting, const VehicleLog& log, Int row) {
 
 // Whether a drone waits that is recovered where it is launched.
 bool is_loop_waiting(View<const Drone, 1> drones) {
-    return std::any_of(drones.begin(), drones.end(), [](const Drone& drone) {
+    return std::ranges::any_of(drones, [](const Drone& drone) {
         return is_recovered(drone, Recovery::loop) && drone.takeoff == not_yet;
     });
 }
@@ -77,8 +77,7 @@ Int ready_to_launch(const Setting& setting, const Vehicle& vehicle, Int node, In
 
 // When the crew is free, how many launches of the trip come before, and who may be launched.
 struct Crew {
-    Int free;
-    Int launched;
+    Int free, launched;
     Airspace airspace;
 };
 
@@ -158,10 +157,7 @@ Int bring_aboard(const Setting& setting, Drone& drone, Int here, Int to, Int fre
 // launched first is; loops are recovered behind, or while a launch is held back.
 Int operate(const Setting& setting, const Vehicle& vehicle, View<Drone, 1> drones, Int to) {
     const Int here = vehicle.node;
-    Int free = vehicle.crew;
-    Int waiting = vehicle.flying;
-    Int looping = 0;
-    Int leaving = 0;
+    Int free = vehicle.crew, waiting = vehicle.flying, looping = 0, leaving = 0;
     Int before = vehicle.launched;
     for (Drone& drone : drones) drone.takeoff = drone.recovery = not_yet;
     while (waiting + looping > 0) {
@@ -214,8 +210,7 @@ struct Ride {
 
 // The leg to a place that is left for at an instant, while drones are `out` or not.
 struct NextLeg {
-    Int to;
-    Int leave;
+    Int to, leave;
     bool out;
 };
 
@@ -264,7 +259,7 @@ Ride ride(const Setting& setting, const VehicleLog& log, const Vehicle& vehicle,
 
 // Tell whether a drone in flight reaches its customer too late for a hard window.
 bool any_late(const Setting& setting, Int here, View<const Drone, 1> drones) {
-    return std::any_of(drones.begin(), drones.end(), [&](const Drone& drone) {
+    return std::ranges::any_of(drones, [&](const Drone& drone) {
         if (is_aboard(drone)) return false;
         const DroneKind drone_kind = drone_kind_of(setting, drone.row);
         return drone_kind.node[drone.node].too_late(drone.takeoff +
@@ -347,9 +342,8 @@ Leaving leave_for(const Setting& setting, const VehicleLog& log, const Vehicle& 
         const Int left = operate(setting, vehicle, drones, to);
         if (left < 0) return impossible;
         const Int leave = std::max(vehicle.service_end, left);
-        const bool out = std::any_of(drones.begin(), drones.end(), [](const Drone& drone) {
-            return is_recovered(drone, Recovery::meet);
-        });
+        const bool out = std::ranges::any_of(
+            drones, [](const Drone& drone) { return is_recovered(drone, Recovery::meet); });
         const auto [arrival, rests] = ride(setting, log, vehicle, drones, {to, leave, out});
         if (arrival < 0) return impossible;
         const bool is_depot = to < setting.num_depots;

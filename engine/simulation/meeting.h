@@ -39,8 +39,7 @@ bool order_is_open(const Setting& setting, const Vehicle& vehicle);
 // When a drone takes off to a customer: behind all in flight, and at the soonest, as it may be
 // launched before these.
 struct Takeoffs {
-    Int last;
-    Int soonest;
+    Int last, soonest;
 };
 
 Takeoffs takeoffs(const Setting& setting, const Vehicle& vehicle, const VehicleType& type,
@@ -50,9 +49,7 @@ Takeoffs takeoffs(const Setting& setting, const Vehicle& vehicle, const VehicleT
 // -1 each if some sortie can be recovered at neither, or is launched too late, or a break can't be
 // taken.
 struct Leaving {
-    Int left;
-    Int arrival;
-    Int free;
+    Int left, arrival, free;
     Rests rests;  // between both stops
 };
 

@@ -33,9 +33,7 @@ Verdict judge_drive(const OpenVehicle& open, std::optional<Int> earliest, Int no
                     Outlook& outlook) {
     const auto& [setting, vehicle, log, drones] = open;
     const Windows place = setting.node[node];
-    Int leave = vehicle.next_start;
-    Int arrival = 0;
-    Int free = 0;
+    Int leave = vehicle.next_start, arrival = 0, free = 0;
     if (vehicle.idle != 0) {
         leave = std::max(leave, release_of(place));
         arrival = travel_arrival(setting, vehicle.node, node, leaves_first(setting.type, leave));
@@ -77,8 +75,7 @@ Verdict judge_launch(const OpenVehicle& open, Int departure, Int node, Outlook& 
     }
 
     // As if it flew and the vehicle went home.
-    const Int home = setting.type.ends_at;
-    const Int free = vehicle.free;
+    const Int home = setting.type.ends_at, free = vehicle.free;
     const Int delivered = given_by_flight(setting, node);
     board(open, drone, 0, node, takeoff);
     vehicle.given += delivered;
@@ -96,8 +93,7 @@ Verdict judge_launch(const OpenVehicle& open, Int departure, Int node, Outlook& 
 
 // Which services may be added to a trip, or the next one, by their number.
 struct ServicesLeft {
-    bool stop;
-    bool sortie;
+    bool stop, sortie;
 };
 
 ServicesLeft room_of(const OpenVehicle& open) {
@@ -132,8 +128,7 @@ Int legal_services(const Rollout& rollout, View<Int, 1> actions, View<Outlook, 1
         return 0;
     }
     const View<const Int, 2> legs = instance.distance[b][setting.type.travel];
-    const Int here = vehicle.node;
-    const Int home = setting.type.ends_at;
+    const Int here = vehicle.node, home = setting.type.ends_at;
     const Int reach = longest_trip(setting.type) - vehicle.distance;
     const Int began = is_idle ? 0 : log.trip[trips - 1].start;
     ServicesLeft room = room_of(open);

@@ -10,38 +10,24 @@ namespace tandem {
 using Outlook = tandem_outlook;
 
 struct LoggedStop {
-    Int node;
-    Int arrival;
-    Int start;
-    Int leave;
+    Int node, arrival, start, leave;
     Int rests;  // breaks before the next, as rules/breaks.h packs them
 };
 
 struct LoggedTrip {
-    Int first_stop;
-    Int first_op;
-    Int release;
-    Int start;
+    Int first_stop, first_op, release, start;
 };
 
 struct Operation {
-    Int stop;
-    Int sortie;
-    Int is_recovery;
+    Int stop, sortie, is_recovery;
 };
 
 struct LoggedSortie {
     Int drone;
     Int row;  // of its drone's type
-    Int node;
-    Int launch_stop;
+    Int node, launch_stop;
     Int recovery_stop;  // -1 until it is recovered
-    Int takeoff;
-    Int arrival;
-    Int start;
-    Int ready;
-    Int recovery_start;
-    Int recovery_end;
+    Int takeoff, arrival, start, ready, recovery_start, recovery_end;
     Int left;           // of the battery, of drones that are charged aboard
     Int trial_takeoff;  // as it would be if a trip began later
     Int trial_ready;    // likewise
@@ -51,10 +37,7 @@ struct LoggedSortie {
 
 // How many of each there are in a log.
 struct LogLengths {
-    Int trips;
-    Int stops;
-    Int ops;
-    Int sorties;
+    Int trips, stops, ops, sorties;
 };
 
 // The open vehicle of a rollout.

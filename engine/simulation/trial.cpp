@@ -60,10 +60,10 @@ Order parcels_aboard(const Setting& setting, const VehicleLog& log) {
         }
     }
     std::erase_if(aboard, [&](Int delivery) {
-        return std::any_of(stops.begin(), stops.end(),
-                           [&](const LoggedStop& stop) { return stop.node == delivery; }) ||
-               std::any_of(sorties.begin(), sorties.end(),
-                           [&](const LoggedSortie& sortie) { return sortie.node == delivery; });
+        return std::ranges::any_of(stops,
+                                   [&](const LoggedStop& stop) { return stop.node == delivery; }) ||
+               std::ranges::any_of(
+                   sorties, [&](const LoggedSortie& sortie) { return sortie.node == delivery; });
     });
     return aboard;
 }
@@ -158,7 +158,7 @@ bool is_in_order(const Dues& dues, const Order& order) {
 // until one is legal.
 template <class Visit>
 bool any_permutation(const Dues& dues, Order order, const Visit& visit) {
-    std::sort(order.begin(), order.end());
+    std::ranges::sort(order);
     do {
         if (is_in_order(dues, order) && visit(order)) return true;
     } while (std::next_permutation(order.begin(), order.end()));
@@ -168,7 +168,7 @@ bool any_permutation(const Dues& dues, Order order, const Visit& visit) {
 // As `any_order`, from a stack: all leave in one order, each once it is whole.
 template <class Visit>
 bool any_unstacking(Dues dues, const Visit& visit) {
-    std::reverse(dues.begin(), dues.end());
+    std::ranges::reverse(dues);
     Order lacking;
     for (const Due& due : dues) {
         lacking.insert(lacking.end(), due.lacking.begin(), due.lacking.end());
@@ -191,7 +191,7 @@ template <class Visit>
 bool any_order(const Setting& setting, View<const Int, 2> legs, Int here, Dues dues,
                const Visit& visit) {
     if (is_stack(setting.type)) return any_unstacking(std::move(dues), visit);
-    std::reverse(dues.begin(), dues.end());
+    std::ranges::reverse(dues);
     const Order last_first = one_by_one(dues);
     if (last_first.size() <= most_permuted) return any_permutation(dues, last_first, visit);
     if (visit(last_first)) return true;
@@ -282,9 +282,9 @@ bool is_aboard(const OpenVehicle& open, Int delivery) {
     const View<LoggedStop, 1> stops = log.stop.first(log.count.stops);
     const View<LoggedSortie, 1> sorties = log.sortie.first(log.count.sorties);
     return std::ranges::all_of(pickups_of(setting.pair, delivery), [&](Int pickup) {
-        return std::any_of(stops.begin(), stops.end(),
-                           [&](const LoggedStop& stop) { return stop.node == pickup; }) ||
-               std::any_of(sorties.begin(), sorties.end(), [&](const LoggedSortie& sortie) {
+        return std::ranges::any_of(stops,
+                                   [&](const LoggedStop& stop) { return stop.node == pickup; }) ||
+               std::ranges::any_of(sorties, [&](const LoggedSortie& sortie) {
                    return sortie.node == pickup && sortie.recovery_stop != in_flight;
                });
     });

@@ -9,8 +9,7 @@ namespace tandem {
 struct Rollout {
     const Instance& instance;
     State& state;
-    Int r;
-    Int scratch;
+    Int r, scratch;
 };
 
 // An action on a customer.

@@ -50,8 +50,7 @@ Int charged_takeoff(const Setting& setting, const VehicleLog& log, Int index, In
 
 // The stops of a trip, up to the last that is logged.
 struct Stops {
-    Int first;
-    Int behind;
+    Int first, behind;
 };
 
 Stops stops_of(const VehicleLog& log, Int trip) {
@@ -418,16 +417,13 @@ private:
 
     const Setting& setting_;
     const VehicleLog& log_;
-    Int op_ = 0;
-    Int leave_ = 0;
+    Int op_ = 0, leave_ = 0;
     Int begin_ = 0;   // of the route
     Int travel_ = 0;  // on legs, where that hangs on when they are driven
     Driver driver_{};
     bool lasting_ = true, in_time_ = false;
     // Of the trip: its first stop, the launches so far, the first instant at which any has left.
-    Int first_ = 0;
-    Int launched_ = 0;
-    Int departure_ = far;
+    Int first_ = 0, launched_ = 0, departure_ = far;
     // Of who flies by itself: how long each stop is waited at, and how the battery is after a trip.
     std::vector<Int> waits_;
     std::vector<Int> served_;  // (stop,) where shipments may be under way for so long
@@ -435,8 +431,7 @@ private:
     std::vector<Int> starts_;  // (stop,) where lags count
     std::vector<Int> flown_;   // (sortie,) when service begins there, likewise
     // At the stop: when the crew is free, and when it is from what takes time.
-    Int free_ = 0;
-    Int busy_ = 0;
+    Int free_ = 0, busy_ = 0;
 };
 
 }  // namespace

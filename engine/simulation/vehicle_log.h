@@ -103,10 +103,7 @@ inline Speeds speeds_of(const Setting& setting) {
 // A leg with breaks that is begun at `leave`, on a route that begins at `begin`.
 struct BegunLeg {
     Rests rests;
-    Int begin;
-    Int origin;
-    Int to;
-    Int leave;
+    Int begin, origin, to, leave;
 };
 
 inline PausedLeg paused_leg(const Setting& setting, const BegunLeg& begun) {

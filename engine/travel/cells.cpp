@@ -109,8 +109,7 @@ private:
         Int right = count_ - 1;
         while (left < right) {
             const double pivot = found[(left + right) / 2].away;
-            Int low = left;
-            Int high = right;
+            Int low = left, high = right;
             while (low <= high) {
                 while (found[low].away < pivot) ++low;
                 while (pivot < found[high].away) --high;

@@ -19,8 +19,7 @@ constexpr double nowhere = std::numeric_limits<double>::infinity();
 
 // How far a flight is, and how long it takes.
 struct FlightLength {
-    double distance = nowhere;
-    double duration = nowhere;
+    double distance = nowhere, duration = nowhere;
 };
 
 struct Network {
@@ -167,8 +166,8 @@ public:
 
     // Fly from a node, at least until no flight to any of some others can be quicker.
     void fly_from(Int node, std::span<const Int> targets) {
-        std::fill(flown_.begin(), flown_.end(), FlightLength{});
-        std::fill(least_.begin(), least_.end(), FlightLength{});
+        std::ranges::fill(flown_, FlightLength{});
+        std::ranges::fill(least_, FlightLength{});
         const Sights& outward = network_.outward;
         for (Int entry = outward.begin[node]; entry < outward.begin[node + 1]; ++entry) {
             const FlightLength flown{outward.distance[entry], outward.duration[entry]};

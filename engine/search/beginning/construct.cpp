@@ -17,7 +17,7 @@ void disband(const ProblemData& data, Searcher& searcher) {
         route.length = route.sorties = route.trips = 0;
         now.cost[slot] = 0.0;
     }
-    std::fill(now.used.begin(), now.used.end(), 0);
+    std::ranges::fill(now.used, 0);
     for (Int node = 0; node < now.where.size(); ++node) {
         if (now.where[node].slot < 0) continue;
         now.where[node].slot = nowhere;
@@ -32,7 +32,7 @@ void disband(const ProblemData& data, Searcher& searcher) {
 Int absences_of(const ProblemData& data, const Searcher& searcher, Int slot) {
     const Fleet& now = searcher.now;
     Int sum = 0;
-    for (const Stop& stop : now.stop[slot].first(now.route[slot].length)) {
+    for (const Stop& stop : stops_of(now, slot)) {
         if (stop.kind == customer_stop && !is_other_end(data.pair, stop.node)) {
             sum += 1 + searcher.absences[stop.node];
         }
@@ -50,7 +50,7 @@ void give_up_route(const ProblemData& data, Searcher& searcher) {
     }
     Route& route = now.route[slot];
     double cost = searcher.value->cost - now.cost[slot] - plan_cost(data, searcher);
-    for (const Stop& stop : now.stop[slot].first(route.length)) {
+    for (const Stop& stop : stops_of(now, slot)) {
         if (stop.kind != customer_stop) continue;
         now.where[stop.node].slot = nowhere;
         if (is_other_end(data.pair, stop.node)) continue;

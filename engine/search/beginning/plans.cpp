@@ -120,14 +120,14 @@ void tell_route(const ProblemData& data, const Fleet& fleet, Int slot, Int vehic
     const View<Stop, 1> stops = fleet.stop[slot];
     const Speeds speeds{type, data.profile_time[route.type], data.profile_factor[route.type]};
     RouteTeller told(plan, speeds, route.type, vehicle, told_stop(data, stops, 0).arrival);
-    for (const Trip& trip : fleet.trip[slot].first(route.trips)) {
+    for (const Trip& trip : trips_of(fleet, slot)) {
         const bool is_charged = shares_chargers(type);
         told.trip(is_charged ? trip.charged_from : 0, is_charged ? trip.charged_until : 0);
         for (Int p = trip.first; p <= trip.last; ++p) {
             told.stop(
                 with_handling(type, told_stop(data, stops, p), p == trip.first, p == trip.last));
         }
-        for (const Sortie& sortie : fleet.sortie[slot].first(route.sorties)) {
+        for (const Sortie& sortie : sorties_of(fleet, slot)) {
             if (sortie.launch < trip.first || sortie.launch > trip.last) continue;
             const VehicleType& drones =
                 data.type[row_of_drone(data.type, route.type, sortie.drone)];

@@ -11,8 +11,7 @@ namespace {
 // How fast a type drives from where its routes begin, in mm per ms.
 double speed_of(const ProblemData& data, const VehicleType& type) {
     const TravelLegs legs = legs_of(data.leg, type.travel);
-    double distance = 0.0;
-    double duration = 0.0;
+    double distance = 0.0, duration = 0.0;
     for (Int node = data.num_depots; node < data.num_nodes; ++node) {
         const Leg way = leg(legs, type.begins_at, node);
         distance += double(way.distance);
@@ -33,11 +32,7 @@ struct Chains {
 // `head`, to `b`, the first of that which ends with `tail`; the drive from one to the other takes
 // `way`.
 struct Joint {
-    Int a;
-    Int b;
-    Int head;
-    Int tail;
-    Int way;
+    Int a, b, head, tail, way;
 };
 
 // Lets a chain be one customer.
@@ -199,7 +194,7 @@ void write_excess(const ProblemData& data, Int k, Int ranks, View<Int, 1> excess
     const TravelLegs legs = legs_of(data.leg, type.travel);
     const NodeTable places = data.place.by_truck(type);
     const double speed = speed_of(data, type);
-    std::fill(excess.begin(), excess.end(), 0);
+    std::ranges::fill(excess, 0);
     for (Int a = data.num_depots; a < data.num_nodes; ++a) {
         data.deadline.go_on_late();
         if (!data.can(k, 0, a)) continue;

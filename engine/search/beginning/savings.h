@@ -10,8 +10,7 @@ namespace tandem {
 
 // A customer in a chain of some that a route serves.
 struct Chain {
-    Int before;
-    Int behind;
+    Int before, behind;
     Int route;   // of its last customer, the first
     Int leave;   // the departure
     Int latest;  // the latest arrival
@@ -54,8 +53,7 @@ void number_pairs(View<Int, 1> excess, Int coarse);
 
 // A customer and a neighbour, `nowhere` for none.
 struct Neighbours {
-    Int customer;
-    Int neighbour;
+    Int customer, neighbour;
 };
 
 // The customers that a number or key stands for.

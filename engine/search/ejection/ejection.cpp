@@ -71,8 +71,7 @@ private:
     struct EjectionSpot {
         Int row = nowhere;
         PairPlace place{};
-        Int one = nowhere, other = nowhere;
-        Int trouble = 0;
+        Int one = nowhere, other = nowhere, trouble = 0;
     };
 
     // Inserts one who is left out, or tries to. False once the search must end.
@@ -165,7 +164,7 @@ private:
         for (const Int pickup : pickups) {
             ranked_.push_back({trouble_[std::size_t(pickup)], Int(ranked_.size()), pickup});
         }
-        std::sort(ranked_.begin(), ranked_.end());
+        std::ranges::sort(ranked_);
         std::transform(ranked_.begin(), ranked_.end(), pickups.begin(),
                        [](const std::array<Int, 3>& ranked) { return ranked[2]; });
     }

@@ -87,8 +87,7 @@ private:
     }
 
     const ProblemData& data_;
-    const Int k_;
-    const Int node_;
+    const Int k_, node_;
     const bool by_drone_;
     const Int options_ = by_drone_ && may_cross(data_.type[k_]) ? ways_to_fly : 1;
     const Int halts_ = by_drone_ && has_halts(data_) ? data_.near_halts.shape(1) : 0;

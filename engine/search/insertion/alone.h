@@ -20,8 +20,7 @@ bool serve_alone_anyhow(const ProblemData& data, const Fleet& fleet, Int slot, I
 constexpr Int ways_to_bring = 3;
 
 struct Bringing {
-    Int launch;
-    Int recovery;
+    Int launch, recovery;
 };
 
 constexpr Bringing bringing_flight(Int way, Int end) {

@@ -12,11 +12,8 @@ namespace tandem {
 // Which route a customer joins, by which type, what driving costs that, and what all costs but for
 // the detour.
 struct Joining {
-    Int node;
-    Int slot;
-    Int type;
-    double rate;
-    double cost;
+    Int node, slot, type;
+    double rate, cost;
 };
 
 // The cheapest places of all on a route: of those by truck alone, and with drones.

@@ -100,8 +100,7 @@ private:
     }
 
     View<double, 1> numbers_;
-    Int count_;
-    Int length_;
+    Int count_, length_;
     std::array<double, most_blocks> least_;
 };
 

@@ -12,8 +12,7 @@ namespace {
 
 // The first and the last of the stops that a move changes.
 struct ChangedStops {
-    Int first;
-    Int last;
+    Int first, last;
 };
 
 // Copies the sequence of stops `first` to `last` with their sorties to another slot; returns how

@@ -12,7 +12,7 @@ namespace {
 // alone if all are launched there, the one before if none is aboard.
 Int free_until(const ProblemData& data, const Fleet& fleet, Int slot, Int launch, Int row) {
     const Route& route = fleet.route[slot];
-    const View<const Sortie, 1> sorties = fleet.sortie[slot].first(route.sorties);
+    const View<const Sortie, 1> sorties = sorties_of(fleet, slot);
     const Int number = first_drone(data.type, route.type, row);
     Int until = launch - 1;
     for (Int drone = number; drone < number + data.type[row].drones; ++drone) {
@@ -86,8 +86,7 @@ public:
 
 private:
     const Insertion& insertion_;
-    const Int slot_;
-    const Int row_;
+    const Int slot_, row_;
     const ProblemData& data_ = insertion_.data;
     const Searcher& searcher_ = insertion_.searcher;
     const Int node_ = insertion_.node;

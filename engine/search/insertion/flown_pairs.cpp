@@ -80,7 +80,7 @@ private:
     // Whether others are flown to from and to the same stops.
     bool flies_beside(const EndPlace& place) const {
         const View<const Sortie, 1> sorties = fleet.sortie[slot].first(route.sorties);
-        return std::any_of(sorties.begin(), sorties.end(), [&](const Sortie& sortie) {
+        return std::ranges::any_of(sorties, [&](const Sortie& sortie) {
             return sortie.launch == place.first && sortie.recovery == place.last;
         });
     }

@@ -174,7 +174,7 @@ private:
             const Int last = place_of(pickups_.count, choice).from == end ? 1 : 0;
             order[std::size_t(end)] = {2 * place_of(end, choice).first + last, end};
         }
-        std::sort(order.begin(), order.end());
+        std::ranges::sort(order);
         for (Int rank = 0; rank < pickups_.count; ++rank) {
             const Int end = order[std::size_t(rank)].second;
             const EndPlace& place = place_of(end, choice);
@@ -220,7 +220,7 @@ private:
     // Whether a drone flies to nobody else while it were to fly from and to these stops.
     bool is_idle(Int drone, const EndPlace& place) const {
         const View<const Sortie, 1> sorties = fleet.sortie[slot].first(route.sorties);
-        return std::none_of(sorties.begin(), sorties.end(), [&](const Sortie& sortie) {
+        return std::ranges::none_of(sorties, [&](const Sortie& sortie) {
             return sortie.drone == drone && sortie.launch <= place.last &&
                    place.first <= sortie.recovery;
         });

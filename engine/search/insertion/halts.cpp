@@ -10,10 +10,7 @@ namespace {
 // From where to where a drone flies, and at which of these the truck stops at a launch site by
 // more, behind that stop; `nowhere` at others.
 struct FlownBetween {
-    Int launch;
-    Int recovery;
-    Int launch_halt;
-    Int recovery_halt;
+    Int launch, recovery, launch_halt, recovery_halt;
 };
 
 // Sorties to a customer by drones of a row that begin or end at stops at launch sites to come.
@@ -158,14 +155,12 @@ private:
     const Searcher& searcher_;
     Int slot_;
     Int drone_;  // stands for the row's
-    Int node_;
-    Int k_;
+    Int node_, k_;
     View<const Stop, 1> stops_;
     const VehicleType& type_;
     Rate rate_;
     Windows place_;
-    LegRow inward_;
-    LegRow onward_;
+    LegRow inward_, onward_;
     bool crossing_;  // drones may be recovered elsewhere than they are launched
     double best_;
     double saved_;  // at most, beside what is driven, flown and worked

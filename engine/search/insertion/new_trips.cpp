@@ -8,14 +8,13 @@ namespace {
 
 // Stops of a trip that is split, from the first to the last, with the sorties launched there.
 struct Half {
-    Int first;
-    Int last;
+    Int first, last;
 };
 
 // Calls `visit` with each customer whom drones serve that are launched in half of a trip.
 template <class Visit>
 void for_each_flown(const Fleet& fleet, Int slot, Half half, const Visit& visit) {
-    for (const Sortie& sortie : fleet.sortie[slot].first(fleet.route[slot].sorties)) {
+    for (const Sortie& sortie : sorties_of(fleet, slot)) {
         if (half.first <= sortie.launch && sortie.launch <= half.last) {
             for (const Int node : sortie.customers()) visit(node);
         }

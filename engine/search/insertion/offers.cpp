@@ -103,7 +103,7 @@ void offer_trip(const Insertion& insertion, Int slot, double cost, Int p, Begun 
 }  // namespace
 
 Int free_drone(const ProblemData& data, const Fleet& fleet, Int slot, Stretch stretch, Int row) {
-    const View<const Sortie, 1> sorties = fleet.sortie[slot].first(fleet.route[slot].sorties);
+    const View<const Sortie, 1> sorties = sorties_of(fleet, slot);
     const View<const Stop, 1> stops = fleet.stop[slot];
     const auto [launch, recovery] = stretch;
     const Int trip = stops[launch / 2].trip;

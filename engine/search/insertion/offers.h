@@ -35,8 +35,7 @@ bool more_trips_fit(const ProblemData& data, const Fleet& fleet, const Move& mov
 
 // From where to where a drone is wanted, in half stops: a stop to come is between two.
 struct Stretch {
-    Int launch;
-    Int recovery;
+    Int launch, recovery;
 };
 
 // Returns a drone of a row that is aboard from launch to recovery; `nowhere`: there is none.

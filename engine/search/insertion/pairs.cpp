@@ -179,8 +179,7 @@ private:
     const Newcomer pickup_;
     const Newcomer delivery_;
     const Leg aboard_ = leg_to(pickup_.onward, delivery_.node);
-    const double time_rate_;
-    const double stops_cost_;
+    const double time_rate_, stops_cost_;
     Inserted inserted_;
 };
 

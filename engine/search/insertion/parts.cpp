@@ -57,8 +57,7 @@ private:
     // how many; how much more is aboard.
     struct PickupLabel {
         Proposal<RarerRules> on;
-        Int here = none_here;
-        Int taken = 0, rank = 0, aboard = 0;
+        Int here = none_here, taken = 0, rank = 0, aboard = 0;
     };
 
     const Newcomer& pickup(Int number) const { return pickup_[std::size_t(number)]; }

@@ -73,8 +73,7 @@ public:
 private:
     bool flies(const ProblemData& data) const {
         return data.can(k_, 1, delivery_) ||
-               std::any_of(pickups_.begin(), pickups_.end(),
-                           [&](Int pickup) { return data.can(k_, 1, pickup); });
+               std::ranges::any_of(pickups_, [&](Int pickup) { return data.can(k_, 1, pickup); });
     }
 
     // Which pickups drones of a row fetch: all, one, or none; from which stop of the trip, and how
@@ -125,12 +124,7 @@ private:
     const Int k_;
     const bool by_drone_;
     const Pickups pickups_;
-    const Int delivery_;
-    const Int rows_;
-    const Int orders_;
-    const Int flights_;
-    const Int fetchings_;
-    const Int bringings_;
+    const Int delivery_, rows_, orders_, flights_, fetchings_, bringings_;
 };
 
 // Writes a route that serves a shipment alone in one of the ways. False if it may not. In place.

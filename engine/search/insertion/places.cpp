@@ -43,8 +43,8 @@ void try_halts(const Insertion& insertion, Int slot) {
 // Whether an end of a shipment is flown to from a stop: a flight from a stop before may delay that.
 bool is_end_flown_from(const ProblemData& data, const Fleet& fleet, Int slot, Int p) {
     if (!some_paired(data.pair)) return false;
-    const View<const Sortie, 1> sorties = fleet.sortie[slot].first(fleet.route[slot].sorties);
-    return std::any_of(sorties.begin(), sorties.end(), [&](const Sortie& sortie) {
+    const View<const Sortie, 1> sorties = sorties_of(fleet, slot);
+    return std::ranges::any_of(sorties, [&](const Sortie& sortie) {
         return sortie.launch == p && is_paired(data.pair, sortie.nodes[0]);
     });
 }

@@ -45,8 +45,7 @@ private:
 
     const ProblemData& data_;
     const Linked& linked_;
-    const Int slot_;
-    const Int tier_;
+    const Int slot_, tier_;
     Int row_;
 };
 

@@ -27,9 +27,7 @@ struct LinkedJoining : Joining {
 
 // Two between whom a customer may come, or a depot, and how much longer that is.
 struct Gap {
-    Int before;
-    Int behind;
-    Int detour;
+    Int before, behind, detour;
 };
 
 // Looks for the cheapest place for one customer.
@@ -108,8 +106,7 @@ public:
 private:
     // Who may be the neighbour of a customer, and how near they are.
     struct Neighbour {
-        std::int32_t node;
-        std::int32_t nearest;
+        std::int32_t node, nearest;
     };
 
     static constexpr Int nearest_of_all = 8;
@@ -164,8 +161,7 @@ private:
 
     // Whether a place beside a neighbour may be the best yet; true as well where legs don't tell.
     bool may_be_best(const Neighbour& neighbour) const {
-        const Int node = neighbour.node;
-        const Int nearest = neighbour.nearest;
+        const Int node = neighbour.node, nearest = neighbour.nearest;
         const Link& at = linked_.link[node];
         const int may = int{lists_first_ || room_.may_be_on(linked_.run[at.slot])} &
                         int{least_beside(neighbour) < longest_detour_};
@@ -203,13 +199,11 @@ private:
     }
 
     void try_neighbour(const Neighbour& neighbour) {
-        const Int node = neighbour.node;
-        const Int nearest = neighbour.nearest;
+        const Int node = neighbour.node, nearest = neighbour.nearest;
         const Link& at = linked_.link[node];
         LinkedJoining joins;
         if (!may_join(at.slot, joins)) return;
-        Int inward = nearest;
-        Int onward = nearest;
+        Int inward = nearest, onward = nearest;
         if (!is_near_known_ || nearest == farthest) {
             inward = distance_from(joins.newcomer->inward, node);
             onward = distance_to(joins.newcomer->onward, node);
@@ -319,8 +313,7 @@ private:
 // Inserts a customer as a move says. False if no slot is free.
 bool insert(const ProblemData& data, Searcher& searcher, Linked& linked, Int node,
             const Move& move) {
-    Int slot = move.slot;
-    Int before = move.first;
+    Int slot = move.slot, before = move.first;
     if (opens_route(move)) {
         slot = free_slot(data, searcher, move.type);
         if (slot < 0) return false;

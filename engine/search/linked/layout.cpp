@@ -23,8 +23,8 @@ CheapestVehicle cheapest_of(const ProblemData& data) {
 
 bool is_one_travel(const ProblemData& data) {
     const auto types = data.type.first(data.num_types);
-    return std::all_of(types.begin(), types.end(),
-                       [&](const VehicleType& type) { return type.travel == types[0].travel; });
+    return std::ranges::all_of(
+        types, [&](const VehicleType& type) { return type.travel == types[0].travel; });
 }
 
 Linked::Linked(const ProblemData& data, const Searcher& searcher, Int moments,
@@ -50,9 +50,9 @@ Linked::Linked(const ProblemData& data, const Searcher& searcher, Int moments,
       aboard({data.amount.shape(1), data.num_nodes + 2 * searcher.active.size()}),
       stale({searcher.active.size()}),
       one_travel(is_one_travel(data)) {
-    std::fill(former.begin(), former.end(), nowhere);
-    std::fill(best_first.begin(), best_first.end(), nowhere);
-    std::fill(stale.begin(), stale.end(), true);
+    std::ranges::fill(former, nowhere);
+    std::ranges::fill(best_first, nowhere);
+    std::ranges::fill(stale, true);
 }
 
 }  // namespace tandem

@@ -47,18 +47,12 @@ struct Entry {
 
 // Times of a customer before they changed this turn.
 struct Moment {
-    Int node;
-    Int leave;
-    Int latest;
+    Int node, leave, latest;
 };
 
 // How many of each were noted this turn.
 struct NoteCounts {
-    Int pieces;
-    Int removed;
-    Int entries;
-    Int moments;
-    Int retyped;
+    Int pieces, removed, entries, moments, retyped;
     Int over;  // whether there were more moments than there is room
 };
 

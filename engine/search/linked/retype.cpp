@@ -22,8 +22,7 @@ double trade_run(const ProblemData& data, Searcher& searcher, Linked& linked, In
         const Int another = searcher.active[index < number ? index : index - number];
         const Run& other = linked.run[another];
         const Haul other_haul = haul_of(other);
-        const Int k = run.type;
-        const Int by = other.type;
+        const Int k = run.type, by = other.type;
         if (!data.swap(k, by)) continue;
         const double spared = route_cost(data, k, haul) + route_cost(data, by, other_haul) -
                               route_cost(data, by, haul) - route_cost(data, k, other_haul);

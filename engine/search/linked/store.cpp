@@ -115,8 +115,7 @@ private:
     const ProblemData& data_;
     Searcher& searcher_;
     Linked& linked_;
-    double saved_ = 0.0;
-    double added_ = 0.0;
+    double saved_ = 0.0, added_ = 0.0;
 };
 
 }  // namespace

@@ -12,14 +12,12 @@ namespace {
 Int first_of_string(const ProblemData& data, const Searcher& searcher, const Linked& linked,
                     Int customer, Int span) {
     const View<Link, 1> link = linked.link;
-    Int first = customer;
-    Int before = 0;
+    Int first = customer, before = 0;
     while (before < span - 1 && link[first].before >= data.num_depots) {
         first = link[first].before;
         ++before;
     }
-    Int last = customer;
-    Int behind = 0;
+    Int last = customer, behind = 0;
     while (behind < span - 1 && link[last].behind >= data.num_depots) {
         last = link[last].behind;
         ++behind;
@@ -90,8 +88,7 @@ Ruined ruin_linked(const ProblemData& data, Searcher& searcher, Linked& linked) 
     Int strings = draw_strings(longest, searcher.rng);
     const Int seed = draw_seed(data, searcher, searcher.absent.first(count.absent));
     double saved = 0.0;
-    Int rank = -1;
-    Int customer = seed;
+    Int rank = -1, customer = seed;
     while (strings > 0 && customer >= 0 && linked.noted.removed < most_removed) {
         const Int slot = linked.link[customer].slot;
         if (slot >= 0 && linked.hit[slot] != count.turn) {

@@ -55,8 +55,7 @@ Int longer_home(const ProblemData& data, const Linked& linked, Int slot, Int k) 
 
 // How far a route is driven from a customer on, and how many there are from there on.
 struct Rest {
-    Int distance;
-    Int customers;
+    Int distance, customers;
 };
 
 Rest tail_from(const ProblemData& data, const Linked& linked, Int node) {
@@ -71,8 +70,7 @@ Rest tail_from(const ProblemData& data, const Linked& linked, Int node) {
 // A customer whose tail is swapped, the legs from there, and to who comes behind.
 struct Cutting {
     Int node;
-    LegRow here;
-    LegRow to_after;
+    LegRow here, to_after;
 };
 
 // What it costs to swap the tails behind a customer and before another.
@@ -121,8 +119,7 @@ bool may_carry_swapped(const ProblemData& data, const Linked& linked, Int k, Int
 
 // The slot whose tail is best swapped, `nowhere` if none is, who leads that, and what it costs.
 struct Tail {
-    Int slot;
-    Int leader;
+    Int slot, leader;
     double cost;
 };
 
@@ -208,8 +205,7 @@ void assign(const ProblemData& data, Linked& linked, Int node, Int slot) {
 // Another route's tail, from its first customer to its last.
 struct NewTail {
     LinkedRow part;
-    Int first;
-    Int last;
+    Int first, last;
 };
 
 // Lets a route go on behind its head, which `before` ends, with another's tail.

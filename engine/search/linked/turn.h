@@ -46,8 +46,7 @@ Recreated recreate_linked(const ProblemData& data, Searcher& searcher, Linked& l
 
 // The slots of both routes, `nowhere` if no tails were swapped, and what it costs.
 struct SwappedTails {
-    Int slot;
-    Int other;
+    Int slot, other;
     double cost;
 };
 

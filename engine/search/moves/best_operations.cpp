@@ -214,7 +214,7 @@ void BestOperations::trace() {
         to = how.from;
     }
     const View<PlannedOperation, 1> planned = scratch_.planned.view().first(count_);
-    std::reverse(planned.begin(), planned.end());
+    std::ranges::reverse(planned);
 }
 
 }  // namespace tandem

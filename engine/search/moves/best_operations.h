@@ -85,8 +85,7 @@ private:
     const PartToPlan& part_;
     PartScratch& scratch_;
     Rate rate_;
-    Spot customers_;
-    Spot spots_;
+    Spot customers_, spots_;
     Int sets_;
     unsigned all_;
     unsigned driven_ = 0;  // whom trucks may serve

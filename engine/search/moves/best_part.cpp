@@ -73,10 +73,9 @@ BestPart::TogetherPart BestPart::draw(Int slot, Int p) const {
 // Tell whether no drone is in the air while the truck is at a stop.
 bool BestPart::is_joint(Int slot, Int p) const {
     const Fleet& now = searcher_.now;
-    const View<const Sortie, 1> sorties = now.sortie[slot].first(now.route[slot].sorties);
-    return std::none_of(sorties.begin(), sorties.end(), [p](const Sortie& sortie) {
-        return sortie.launch < p && p < sortie.recovery;
-    });
+    const View<const Sortie, 1> sorties = sorties_of(now, slot);
+    return std::ranges::none_of(
+        sorties, [p](const Sortie& sortie) { return sortie.launch < p && p < sortie.recovery; });
 }
 
 // Return how many are served between two stops; -1 if several are on one flight.
@@ -84,7 +83,7 @@ Int BestPart::served_between(Int slot, Int first, Int last) const {
     const Fleet& now = searcher_.now;
     Int served = 0;
     for (Int p = first + 1; p < last; ++p) served += now.stop(slot, p).kind == customer_stop;
-    for (const Sortie& sortie : now.sortie[slot].first(now.route[slot].sorties)) {
+    for (const Sortie& sortie : sorties_of(now, slot)) {
         if (sortie.launch < first || sortie.launch >= last) continue;
         if (sortie.count > 1) return -1;
         ++served;
@@ -103,7 +102,7 @@ PartToPlan BestPart::read(Int slot, const TogetherPart& part) const {
     for (Int p = part.first + 1; p < part.last; ++p) {
         if (now.stop(slot, p).kind == customer_stop) add(now.stop(slot, p).node);
     }
-    for (const Sortie& sortie : now.sortie[slot].first(now.route[slot].sorties)) {
+    for (const Sortie& sortie : sorties_of(now, slot)) {
         if (sortie.launch >= part.first && sortie.launch < part.last) add(sortie.nodes[0]);
     }
     std::sort(read.customer.begin(), read.customer.begin() + read.customers);

@@ -20,8 +20,7 @@ public:
 private:
     // Stops of a route where truck and drone are together, and how many are served between.
     struct TogetherPart {
-        Int first, last;
-        Int customers;
+        Int first, last, customers;
     };
 
     TogetherPart draw(Int slot, Int p) const;

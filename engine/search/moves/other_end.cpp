@@ -11,7 +11,7 @@ constexpr Int most_timed = 16;  // places of the end
 
 // Lets drones be launched and recovered at one stop instead of another beside it. In place.
 void shift_flights(const Fleet& fleet, Int slot, Int from, Int to) {
-    const View<Sortie, 1> sorties = fleet.sortie[slot].first(fleet.route[slot].sorties);
+    const View<Sortie, 1> sorties = sorties_of(fleet, slot);
     for (Sortie& sortie : sorties) {
         if (sortie.launch == from) sortie.launch = to;
         if (sortie.recovery == from) sortie.recovery = to;

@@ -27,10 +27,9 @@ View<T, 1> behind(View<T, 1> values, Int begin) {
 
 // Tell whether a drone is launched before stop `p` and recovered behind it.
 bool flown_over(const Fleet& fleet, Int slot, Int p) {
-    const View<const Sortie, 1> sorties = fleet.sortie[slot].first(fleet.route[slot].sorties);
-    return std::any_of(sorties.begin(), sorties.end(), [p](const Sortie& sortie) {
-        return sortie.launch < p && p < sortie.recovery;
-    });
+    const View<const Sortie, 1> sorties = sorties_of(fleet, slot);
+    return std::ranges::any_of(
+        sorties, [p](const Sortie& sortie) { return sortie.launch < p && p < sortie.recovery; });
 }
 
 // How many places there are in a line, 0 if a sortie serves several customers, and whether all that
@@ -43,12 +42,8 @@ struct LinedUp {
 // Write the places of stops in the order they are left for, and the operations as they are.
 LinedUp line_up(const Fleet& fleet, Int slot, Int first, Int last, View<Line, 1> line) {
     const View<const Stop, 1> stops = fleet.stop[slot];
-    const View<const Sortie, 1> sorties = fleet.sortie[slot].first(fleet.route[slot].sorties);
-    Int length = 0;
-    Int begin = 0;
-    Int s = 0;
-    Int landing = first;
-    Int flown = no_flight;
+    const View<const Sortie, 1> sorties = sorties_of(fleet, slot);
+    Int length = 0, begin = 0, s = 0, landing = first, flown = no_flight;
     bool exact = true;
     while (s < sorties.size() && sorties[s].launch < first) ++s;
     for (Int p = first; p <= last; ++p) {

@@ -25,8 +25,7 @@ public:
 private:
     // Stops of a route, both included.
     struct StopSpan {
-        Int first;
-        Int last;
+        Int first, last;
     };
 
     // Places of one or two routes in a line: how many, 0 if that can't be; what the operations cost
@@ -35,8 +34,7 @@ private:
     struct Lines {
         Int length = 1;
         double cost = 0.0;
-        bool exact = true;
-        bool saves_time = false;
+        bool exact = true, saves_time = false;
     };
 
     bool draw();

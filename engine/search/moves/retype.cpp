@@ -50,11 +50,11 @@ bool may_drive(const ProblemData& data, const Fleet& fleet, Int slot, Int k) {
         route.trips > type.max_trips || (route.trips > 1 && type.depot != former.depot)) {
         return false;
     }
-    for (const Stop& stop : fleet.stop[slot].first(route.length)) {
+    for (const Stop& stop : stops_of(fleet, slot)) {
         if (stop.kind == customer_stop && !data.can(k, 0, stop.node)) return false;
         if (stop.kind == halt_stop && !may_halt(data.halts, k, stop.node)) return false;
     }
-    for (const Sortie& sortie : fleet.sortie[slot].first(route.sorties)) {
+    for (const Sortie& sortie : sorties_of(fleet, slot)) {
         if (!may_fly(data, k, sortie)) return false;
     }
     return true;

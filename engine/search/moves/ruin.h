@@ -49,8 +49,7 @@ Int draw_seed(const ProblemData& data, const Searcher& searcher, View<const Int,
 
 // How many routes customers are removed from, and near whom those are.
 struct RuinSize {
-    Int num_touched;
-    Int seed;
+    Int num_touched, seed;
 };
 
 // Mark strings near a random customer, at most one a trip, and list their routes in `touched`. In

@@ -90,8 +90,7 @@ bool SmallMoves::read(Changing& trip) {
     const View<const Stop, 1> stops = fleet.stop[trip.slot];
     const View<const Sortie, 1> sorties =
         fleet.sortie[trip.slot].first(fleet.route[trip.slot].sorties);
-    Int s = 0;
-    Int recovery = trip.first;
+    Int s = 0, recovery = trip.first;
     while (s < sorties.size() && sorties[s].launch < trip.first) ++s;
     trip.row.clear();
     for (Int p = trip.first; p <= trip.last; ++p) {

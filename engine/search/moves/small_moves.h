@@ -30,8 +30,7 @@ private:
     // A trip that is changed.
     struct Changing {
         Int slot, first, last;  // its stops in the route
-        Int type;
-        Int customers;
+        Int type, customers;
         Amount load;
         OperationRow row;
         OperationRow best;  // as it was when all cost least
@@ -95,8 +94,7 @@ private:
     const ProblemData& data_;
     Searcher& searcher_;
     std::array<Changing, most_changing> trips_{};
-    Int num_trips_ = 0;
-    Int customers_ = 0;
+    Int num_trips_ = 0, customers_ = 0;
     double cost_ = 0.0;  // of all routes as they are
     double best_ = 0.0;  // least so far
     bool improved_ = false;

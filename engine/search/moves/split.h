@@ -14,8 +14,7 @@ void shift(View<Line, 1> line, Int one, Int to);
 // Between which places of a line, both included, the order was changed, and how many more places
 // there are.
 struct Places {
-    Int first;
-    Int last;
+    Int first, last;
     Int more = 0;
 
     bool any() const { return first < last || more != 0; }

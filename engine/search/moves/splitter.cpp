@@ -18,8 +18,7 @@ Some some(const double* row, Int place) {
 // An operation that ends at a place, and what all up to there costs.
 struct EndedOperation {
     double cost;
-    Int before;
-    Int flight;
+    Int before, flight;
 
     // Of those that cost the same, that which begins first is taken, then that which flies least
     // far along the line.

@@ -13,8 +13,7 @@ constexpr double infinite = std::numeric_limits<double>::infinity();
 
 // Where a route is cut: behind a stop.
 struct Cut {
-    Int slot;
-    Int stop;
+    Int slot, stop;
 };
 
 // Return how far a route goes on from stop `p`.
@@ -49,8 +48,7 @@ double tail_saving(const ProblemData& data, const Fleet& fleet, Cut a, Cut b) {
     const Stop& there = fleet.stop(b.slot, b.stop);
     const Stop& behind_here = fleet.stop(a.slot, a.stop + 1);
     const Stop& behind_there = fleet.stop(b.slot, b.stop + 1);
-    Int after_here = behind_here.node;
-    Int after_there = behind_there.node;
+    Int after_here = behind_here.node, after_there = behind_there.node;
     const Int home = data.type[k].ends_at;
     const Int home_by = data.type[by].ends_at;
     if (home != home_by) {
@@ -253,7 +251,7 @@ bool append(const Fleet& source, Int slot, Int first, Int behind, Int to) {
         const Stop& stop = source.stop(slot, p);
         if (!add_stop(sequence_in(source, to), stop.node, stop.kind)) return false;
     }
-    for (const Sortie& sortie : source.sortie[slot].first(source.route[slot].sorties)) {
+    for (const Sortie& sortie : sorties_of(source, slot)) {
         if (sortie.launch < first || sortie.launch >= behind) continue;
         if (route.sorties >= sorties.size()) return false;
         Sortie& copy = sorties[route.sorties++];

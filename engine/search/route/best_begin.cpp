@@ -19,8 +19,8 @@ const std::optional<Begun>& BestBegin::of(const AnyBegin& route,
         number = customer.before;
     }
     turns_.push_back({std::max(first, route.end.c - route.end.d), 0.0, 0.0});
-    std::sort(turns_.begin(), turns_.end(),
-              [](const Turn& one, const Turn& other) { return one.begin < other.begin; });
+    std::ranges::sort(turns_,
+                      [](const Turn& one, const Turn& other) { return one.begin < other.begin; });
     Int at = first;
     begin_at(route, first, missed);
     for (const Turn& turn : turns_) {

@@ -370,10 +370,9 @@ std::vector<BreakChoice> break_choices(const ProblemData& data, const Route& rou
     const auto value = [](const BreakChoice& choice) {
         return std::pair{choice.timing.cost(), choice.timing.end};
     };
-    std::sort(choices.begin(), choices.end(),
-              [&](const BreakChoice& one, const BreakChoice& other) {
-                  return value(one) < value(other);
-              });
+    std::ranges::sort(choices, [&](const BreakChoice& one, const BreakChoice& other) {
+        return value(one) < value(other);
+    });
     return choices;
 }
 

@@ -106,10 +106,10 @@ public:
     CostlyWaits(const ProblemData& data, const Fleet& fleet, Int slot) : data_(data) {
         const Route& route = fleet.route[slot];
         const NodeTable places = data.place.by_truck(data.type[route.type]);
-        for (const Stop& stop : fleet.stop[slot].first(route.length)) {
+        for (const Stop& stop : stops_of(fleet, slot)) {
             if (stop.kind == customer_stop) note(places[stop.node], stop.node, stop.arrival);
         }
-        for (const Sortie& sortie : fleet.sortie[slot].first(route.sorties)) {
+        for (const Sortie& sortie : sorties_of(fleet, slot)) {
             for (Int visit = 0; visit < sortie.count; ++visit) {
                 const Int node = sortie.nodes[visit];
                 note(data.place[0][node], node, sortie.arrivals[visit]);
@@ -178,7 +178,7 @@ double lateness_on(const ProblemData& data, const Route& route, View<const Stop,
 double price_placed(const ProblemData& data, const Fleet& fleet, Int slot,
                     const PlacedBreaks& placed, const CostBounds& bounds, bool& settled) {
     Route& route = fleet.route[slot];
-    const View<Stop, 1> stops = fleet.stop[slot].first(route.length);
+    const View<Stop, 1> stops = stops_of(fleet, slot);
     placed.write(stops);
     stops[0].release = placed.begin();
     route.placed = breaks_kept;
@@ -256,7 +256,7 @@ bool may_move_breaks(const ProblemData& data, const Fleet& fleet, Int slot, doub
 
 bool move_breaks(const ProblemData& data, const Fleet& fleet, Int slot, double bar, bool& settled) {
     Route& route = fleet.route[slot];
-    const View<Stop, 1> stops = fleet.stop[slot].first(route.length);
+    const View<Stop, 1> stops = stops_of(fleet, slot);
     const VehicleType& type = data.type[route.type];
     const Int release = stops[0].release;
     const Int begin = begin_as_timed(stops);

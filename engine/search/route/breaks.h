@@ -157,8 +157,7 @@ private:
         ++count_;
     }
 
-    Int begin_ = none;
-    Int count_ = 0;
+    Int begin_ = none, count_ = 0;
     std::array<One, most_breaks> one_{};
 };
 
@@ -279,8 +278,7 @@ void note_soonest(const ProblemData& data, const Route& route, View<Stop, 1> sto
 // What is known of a route's cost: what it would be at least were nobody served too late, with how
 // much work, and what it has to be below.
 struct CostBounds {
-    double in_time;
-    double bar;
+    double in_time, bar;
     Int working = 0;
 };
 

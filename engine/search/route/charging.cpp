@@ -19,7 +19,7 @@ constexpr auto comes_before = [](const Plugging& one, const Plugging& other) {
 // Return the slot of the route for which one in a slot stands; `nowhere` if it is new.
 Int slot_meant(const Fleet& fleet, Int slot) {
     if (slot < fleet.route.size() - scratch_slots) return slot;
-    for (const Stop& stop : fleet.stop[slot].first(fleet.route[slot].length)) {
+    for (const Stop& stop : stops_of(fleet, slot)) {
         if (stop.kind == customer_stop && fleet.where[stop.node].slot >= 0) {
             return fleet.where[stop.node].slot;
         }
@@ -49,7 +49,7 @@ void note_pluggings(const ProblemData& data, const Fleet& fleet, Int slot) {
     for (Int other = 0; other < fleet.route.size() - scratch_slots; ++other) {
         const Route& route = fleet.route[other];
         if (other == own || route.length == 0 || !shares_chargers(data.type[route.type])) continue;
-        for (const Trip& trip : fleet.trip[other].first(route.trips)) {
+        for (const Trip& trip : trips_of(fleet, other)) {
             if (trip.charged_until <= trip.charged_from) continue;
             const Int depot = fleet.stop(other, trip.first).node;
             pluggings.at(count++) = {depot, trip.charged_from, 1};
@@ -180,9 +180,9 @@ bool is_charged_in_turn(const ProblemData& data, const Route& route, View<const 
 
 bool has_places(const ProblemData& data, const Fleet& fleet, Int slot) {
     const View<const Stop, 1> stops = fleet.stop[slot];
-    const View<const Trip, 1> made = fleet.trip[slot].first(fleet.route[slot].trips);
+    const View<const Trip, 1> made = trips_of(fleet, slot);
     note_pluggings(data, fleet, slot);
-    return std::all_of(made.begin(), made.end(), [&](const Trip& trip) {
+    return std::ranges::all_of(made, [&](const Trip& trip) {
         return trip.charged_until <= trip.charged_from ||
                FreeChargers(data, stops[trip.first].node)
                        .soonest(trip.charged_from, trip.charged_until - trip.charged_from) ==

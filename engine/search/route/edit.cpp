@@ -18,16 +18,14 @@ bool is_empty_trip(View<const Stop, 1> stops, View<const Sortie, 1> sorties,
     for (; stops[q].kind != end_stop; ++q) {
         if (stops[q].kind == customer_stop && !marked[stops[q].node]) return false;
     }
-    return std::none_of(sorties.begin(), sorties.end(), [&](const Sortie& sortie) {
-        return p <= sortie.launch && sortie.launch <= q;
-    });
+    return std::ranges::none_of(
+        sorties, [&](const Sortie& sortie) { return p <= sortie.launch && sortie.launch <= q; });
 }
 
 // Tell whether a drone is launched or recovered at stop `p`.
 bool is_used(View<const Sortie, 1> sorties, Int p) {
-    return std::any_of(sorties.begin(), sorties.end(), [&](const Sortie& sortie) {
-        return sortie.launch == p || sortie.recovery == p;
-    });
+    return std::ranges::any_of(
+        sorties, [&](const Sortie& sortie) { return sortie.launch == p || sortie.recovery == p; });
 }
 
 // Let a sortie, if there is one, serve one customer. In place; false if there is none.

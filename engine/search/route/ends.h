@@ -15,8 +15,7 @@ void place_ends(const ProblemData& data, Int k, const Route& route, View<Stop, 1
 
 // A place to reload at, and how far it is by it.
 struct Reload {
-    Int distance;
-    Int node;
+    Int distance, node;
 };
 
 // Return how far it is from a node to another by a place to reload at, and which.

@@ -15,10 +15,10 @@ double amount_at(const ProblemData& data, Int node) {
 double load_on(const ProblemData& data, const Fleet& fleet, Int slot) {
     const Route& route = fleet.route[slot];
     double load = 0.0;
-    for (const Stop& stop : fleet.stop[slot].first(route.length)) {
+    for (const Stop& stop : stops_of(fleet, slot)) {
         if (stop.kind == customer_stop) load += amount_at(data, stop.node);
     }
-    for (const Sortie& sortie : fleet.sortie[slot].first(route.sorties)) {
+    for (const Sortie& sortie : sorties_of(fleet, slot)) {
         for (const Int node : sortie.customers()) load += amount_at(data, node);
     }
     return load;
@@ -35,7 +35,7 @@ double share_of(const ProblemData& data, const Fleet& fleet, Int slot) {
         default: {
             const bool counts = measure_of(data.fairness) == Measure::stops;
             Int share = 0;
-            for (const Trip& trip : fleet.trip[slot].first(route.trips)) {
+            for (const Trip& trip : trips_of(fleet, slot)) {
                 share += counts ? stops_on(trip) : trip.distance;
             }
             return double(share);

@@ -9,10 +9,7 @@ namespace tandem {
 // A customer who is put behind a stop, perhaps behind others there, with how long the legs there
 // and on take; on, where he is the last.
 struct Added {
-    Int behind;
-    Int node;
-    Int out;
-    Int on;
+    Int behind, node, out, on;
 };
 
 // Return what is left of a timed trip.

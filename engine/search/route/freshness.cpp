@@ -141,7 +141,7 @@ bool any_too_long(const ProblemData& data, const Route& route, View<const Stop, 
     }
     if (lags_count(data) && !keeps_all_lags(data, route, stops, sorties)) return true;
     const View<const Trip, 1> made = trips.first(route.trips);
-    return std::any_of(made.begin(), made.end(), [&](const Trip& trip) {
+    return std::ranges::any_of(made, [&](const Trip& trip) {
         return most_excess(data, route, stops, trip, sorties) > 0 ||
                waits_for_calm(data, route, stops, trip) > 0;
     });

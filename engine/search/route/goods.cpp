@@ -16,7 +16,7 @@ bool take(const Goods& goods, Route& route, Trip& trip) {
 // Tell whether customers who go on one trip are on several.
 bool parts_any(View<const Trip, 1> trips) {
     Int seen = 0;
-    return std::any_of(trips.begin(), trips.end(), [&](const Trip& trip) {
+    return std::ranges::any_of(trips, [&](const Trip& trip) {
         const bool again = (seen & trip.kept) != 0;
         seen |= trip.kept;
         return again;

@@ -14,8 +14,7 @@ bool take_goods(View<const Goods, 1> goods, Route& route, View<const Stop, 1> st
 
 // What a trip, or a part of one, bars and keeps together.
 struct Company {
-    Int barred;
-    Int kept;
+    Int barred, kept;
 };
 
 // Tell whether a customer may go with some on a trip, which is on a route or would be.

@@ -12,7 +12,7 @@ void for_each_battery(const ProblemData& data, const Fleet& fleet, const Visit& 
     for (Int slot = 0; slot < fleet.route.size() - scratch_slots; ++slot) {
         const Route& route = fleet.route[slot];
         if (route.length == 0 || !takes_batteries(data.type[route.type])) continue;
-        for (const Stop& stop : fleet.stop[slot].first(route.length)) {
+        for (const Stop& stop : stops_of(fleet, slot)) {
             if (stop.kind == start_stop) visit(slot, stop.node);
         }
     }
@@ -53,8 +53,8 @@ bool has_batteries(const ProblemData& data, const Fleet& fleet, Int slot) {
         !takes_batteries(data.type[route.type])) {
         return true;
     }
-    const View<const Trip, 1> trips = fleet.trip[slot].first(route.trips);
-    return std::all_of(trips.begin(), trips.end(), [&](const Trip& trip) {
+    const View<const Trip, 1> trips = trips_of(fleet, slot);
+    return std::ranges::all_of(trips, [&](const Trip& trip) {
         const Int depot = fleet.stop(slot, trip.first).node, stock = data.hub[depot].batteries;
         return stock >= unlimited || batteries_taken(data, fleet, depot) <= stock;
     });

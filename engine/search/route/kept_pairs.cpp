@@ -13,7 +13,7 @@ bool keep_pairs(const ProblemData& data, View<const Sortie, 1> sorties, const Tr
         for (Int p = behind - 1; p > trip.first; --p) {
             if (node_at(p) == pickup) return true;
         }
-        return std::any_of(sorties.begin(), sorties.end(), [&](const Sortie& sortie) {
+        return std::ranges::any_of(sorties, [&](const Sortie& sortie) {
             return &sortie != delivering && sortie.launch >= trip.first &&
                    sortie.recovery < behind && sortie.serves(pickup);
         });
@@ -45,7 +45,7 @@ bool keeps_pairs(const ProblemData& data, const Route& route, View<const Stop, 1
     const auto node_at = [&](Int p) {
         return stops[p].kind == customer_stop ? stops[p].node : nowhere;
     };
-    return std::all_of(made.begin(), made.end(), [&](const Trip& trip) {
+    return std::ranges::all_of(made, [&](const Trip& trip) {
         return keep_pairs(data, sorties.first(route.sorties), trip, node_at) &&
                (!is_stack(data.type[route.type]) ||
                 keeps_stack(data.pair, trip.first + 1, trip.last, node_at));

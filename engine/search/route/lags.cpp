@@ -57,15 +57,14 @@ Span span_of(const ProblemData& data, Int node) {
 
 // Tell whether a customer is on a route.
 bool is_on(View<const Stop, 1> stops, Int node) {
-    return std::any_of(stops.begin(), stops.end(), [&](const Stop& stop) {
-        return stop.kind == customer_stop && stop.node == node;
-    });
+    return std::ranges::any_of(
+        stops, [&](const Stop& stop) { return stop.kind == customer_stop && stop.node == node; });
 }
 
 }  // namespace
 
 void note_spans(const ProblemData& data, const Fleet& fleet, Int slot) {
-    const View<const Stop, 1> stops = fleet.stop[slot].first(fleet.route[slot].length);
+    const View<const Stop, 1> stops = stops_of(fleet, slot);
     for (const Stop& stop : stops) {
         if (stop.kind != customer_stop || !is_bound(data.across, stop.node)) continue;
         data.span[stop.node] = span_by(lags_of(data.across, stop.node), [&](Int other) {

@@ -16,8 +16,7 @@ inline bool orders_cross(const ProblemData& data) { return !data.across.empty();
 
 // A part of a route: its stops from one up to another.
 struct Part {
-    Int first;
-    Int behind;
+    Int first, behind;
 };
 
 // Write from when to when those of a route may be served by whom other routes serve, as these are

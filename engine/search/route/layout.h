@@ -24,7 +24,6 @@ namespace tandem {
 using SearchCounts = tandem_search_counts;
 using SearchValues = tandem_search_values;
 using Evaluation = tandem_evaluation;
-using Strategy = tandem_strategy;
 
 // A stop of a truck: what is chosen, and all that follows.
 struct Stop {
@@ -36,22 +35,7 @@ struct Stop {
     Int leg;      // how far it is to the next stop
     Int gap;      // how long that takes
     Int flying;   // drones in the air then
-    Int trip;
-    Int early;
-    Int rest;
-    Int end;
-    Int cum;
-    Int depart;
-    Int arrival;
-    Int before;
-    Int block;
-    Int last;
-    Int d;
-    Int c;
-    Int hi;
-    Int lo;
-    Int dep;
-    Int hold;
+    Int trip, early, rest, end, cum, depart, arrival, before, block, last, d, c, hi, lo, dep, hold;
     Int idle;
     Int rests;       // breaks before the next, as rules/breaks.h packs them
     Int heavy;       // bits of breaks for which too much is aboard before the next
@@ -67,21 +51,8 @@ struct Sortie {
     Int drone;     // its number on the truck
     Int count;     // of customers
     Int state;     // whether it waits, flies or is done, while its block is timed
-    Int takeoff_d;
-    Int takeoff_c;
-    Int ready_d;
-    Int ready_c;
-    Int takeoff;
-    Int begin;
-    Int held;
-    Int home;
-    Int limit;
-    Int left;
-    Int taken;
-    Int charged;
-    Int kept;
-    Int since;
-    Int follows;
+    Int takeoff_d, takeoff_c, ready_d, ready_c, takeoff, begin, held, home, limit, left, taken;
+    Int charged, kept, since, follows;
     Int zones;  // with hours, that hold any of its places
     Int nodes[8];
     Int arrivals[8];  // at the customers
@@ -93,12 +64,9 @@ struct Sortie {
 };
 
 struct Trip {
-    Int first;
-    Int last;
+    Int first, last;
     Int halts;  // stops at launch sites
-    Int release;
-    Int distance;
-    Int barred;
+    Int release, distance, barred;
     Int kept;  // relations by which others go on this trip
     Int load[3];
     Int wanted;         // of a battery as it begins, for it and all trips behind
@@ -110,14 +78,9 @@ struct Trip {
 struct Route {
     Int type;
     Int length;  // of stops; 0 in an empty slot
-    Int trips;
-    Int sorties;
-    Int end;
-    Int cum;
-    Int working;
+    Int trips, sorties, end, cum, working;
     Leg legs;  // all of them as one, without setups, if they are limited
-    Int offset;
-    Int awaited;
+    Int offset, awaited;
     Int unpaid;   // breaks
     Int placed;   // where its breaks are: as it ends soonest, as they are, nowhere
     Int driving;  // at the wheel, of a driver who mustn't rest by rules, far if there are rests
@@ -199,6 +162,19 @@ struct Fleet {
     OwnRows<Place, 1> where;    // (node,)
     OwnRows<Int, 1> used;       // (type,) routes
 };
+
+// The stops, the trips and the sorties of the route in a slot.
+inline View<Stop, 1> stops_of(const Fleet& fleet, Int slot) {
+    return fleet.stop[slot].first(fleet.route[slot].length);
+}
+
+inline View<Trip, 1> trips_of(const Fleet& fleet, Int slot) {
+    return fleet.trip[slot].first(fleet.route[slot].trips);
+}
+
+inline View<Sortie, 1> sorties_of(const Fleet& fleet, Int slot) {
+    return fleet.sortie[slot].first(fleet.route[slot].sorties);
+}
 
 struct Scratch;
 

@@ -100,7 +100,7 @@ LeastPrice least_cost(const ProblemData& data, const Fleet& fleet, Int slot) {
         working = std::max(working, least_lasting(data, route, stops, sorties));
     }
     double cost = rate.fixed + work_cost(rate, paid_work(type, none, working));
-    for (const Trip& trip : fleet.trip[slot].first(route.trips)) {
+    for (const Trip& trip : trips_of(fleet, slot)) {
         cost += drive_cost(rate, trip.distance);
     }
     for (const Stop& stop : stops.first(route.length)) {

@@ -22,9 +22,7 @@ enum class How : std::int32_t {
 struct Placement {
     std::int32_t node;
     How how;
-    std::int32_t from;
-    std::int32_t to;
-    std::int32_t drone;
+    std::int32_t from, to, drone;
 };
 
 // Where a customer goes on a route, or all ends of a shipment, by so many placements at most.

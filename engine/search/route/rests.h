@@ -13,8 +13,7 @@ namespace tandem {
 struct TakenRest {
     std::int32_t stop;
     std::int32_t before;  // among those taken, -1 if there is none
-    std::int8_t number;
-    std::int8_t place;
+    std::int8_t number, place;
 };
 
 // A driver who has come somewhere, with the rests so far.
@@ -137,8 +136,7 @@ private:
 
 // When a route ends that nobody rests on, and how long it works then.
 struct LeastWork {
-    Int end;
-    Int working;
+    Int end, working;
 };
 
 // Return how long the breaks behind a stop make its gap.
@@ -162,18 +160,15 @@ bool place_rests(const ProblemData& data, const Route& route, View<Stop, 1> stop
 // What of a route lies ahead: how long its legs are, and all of it, as far as nobody waits or
 // rests.
 struct Ahead {
-    Int driving;
-    Int lasting;
+    Int driving, lasting;
 };
 
 // A leg, driven while drones are out or not, and what lies behind it.
 struct LegAhead {
     Int p;  // the stop before it
-    Int duration;
-    Int setup;
+    Int duration, setup;
     Ahead ahead;
-    bool flying;
-    bool may_rest;
+    bool flying, may_rest;
 };
 
 // How whoever reaches a stop without flights stays there.

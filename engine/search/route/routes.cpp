@@ -20,11 +20,11 @@ bool halts_in_order(const ProblemData& data, const Route& route, View<const Stop
         const View<const Stop, 1> before = stops.first(p);
         const View<const Sortie, 1> flown = sorties.first(route.sorties);
         const bool is_served =
-            std::any_of(before.begin(), before.end(),
-                        [&](const Stop& stop) {
-                            return stop.kind == customer_stop && stop.node == node;
-                        }) ||
-            std::any_of(flown.begin(), flown.end(), [&](const Sortie& sortie) {
+            std::ranges::any_of(before,
+                                [&](const Stop& stop) {
+                                    return stop.kind == customer_stop && stop.node == node;
+                                }) ||
+            std::ranges::any_of(flown, [&](const Sortie& sortie) {
                 return sortie.recovery < p && sortie.serves(node);
             });
         if (!is_served) return false;

@@ -69,8 +69,7 @@ inline double window_cost(const ProblemData& data, Int node, Int arrival) {
 
 // What lateness and what waiting cost.
 struct WindowCosts {
-    double late;
-    double early;
+    double late, early;
 };
 
 // Return what lateness and what waiting cost on a timed route.
@@ -107,8 +106,7 @@ inline double longer_cost(const VehicleType& type, const Rate& rate, const Route
 
 // The cost of a route, and what waiting for windows costs of it.
 struct RoutePrice {
-    double cost;
-    double early;
+    double cost, early;
 };
 
 // Return the cost of a timed route, and what waiting for windows costs of it.

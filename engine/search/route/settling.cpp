@@ -19,9 +19,8 @@ constexpr Int settled_again = 3;
 
 // Tell whether a drone is launched or recovered at a stop or in the air meanwhile.
 bool has_sortie(View<const Sortie, 1> sorties, Int p) {
-    return std::any_of(sorties.begin(), sorties.end(), [&](const Sortie& sortie) {
-        return sortie.launch <= p && p <= sortie.recovery;
-    });
+    return std::ranges::any_of(
+        sorties, [&](const Sortie& sortie) { return sortie.launch <= p && p <= sortie.recovery; });
 }
 
 // Return the latest start of a trip that costs nothing, by each stop's last arrival.
@@ -244,8 +243,7 @@ private:
     bool keeps_placed() const {
         return resting_ && route_.placed == breaks_by_end &&
                (!has_driving_rules(type_) || (follows_driver(type_) && any_rest(type_, route_))) &&
-               std::any_of(stops_.begin(), stops_.end(),
-                           [](const Stop& stop) { return stop.rests != 0; });
+               std::ranges::any_of(stops_, [](const Stop& stop) { return stop.rests != 0; });
     }
 
     const ProblemData& data_;

@@ -85,7 +85,7 @@ void keep_aside(const Fleet& fleet, Int slot, Int to) {
 }
 
 void list_all_changed(const Searcher& searcher) {
-    std::fill(searcher.is_changed.begin(), searcher.is_changed.end(), false);
+    std::ranges::fill(searcher.is_changed, false);
     searcher.count->changed = searcher.active.size();
     for (Int slot = 0; slot < searcher.active.size(); ++slot) searcher.changed[slot] = slot;
 }

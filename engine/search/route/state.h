@@ -23,10 +23,10 @@ inline Int served_place(const ProblemData& data, const Fleet& fleet, Int node) {
 template <class Visit>
 void for_each_served(const Fleet& fleet, Int slot, const Visit& visit) {
     const Route& route = fleet.route[slot];
-    for (const Stop& stop : fleet.stop[slot].first(route.length)) {
+    for (const Stop& stop : stops_of(fleet, slot)) {
         if (stop.kind == customer_stop) visit(stop.node);
     }
-    for (const Sortie& sortie : fleet.sortie[slot].first(route.sorties)) {
+    for (const Sortie& sortie : sorties_of(fleet, slot)) {
         for (const Int node : sortie.customers()) visit(node);
     }
 }

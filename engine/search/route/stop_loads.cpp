@@ -76,7 +76,7 @@ bool note_amounts(const ProblemData& data, const Fleet& fleet, Int slot, Int tie
         add_come(stop_load, picked_of(data.amount, node, tier), total_picked(data.amount, node));
     }
     bool allowed = true;
-    for (const Sortie& sortie : fleet.sortie[slot].first(route.sorties)) {
+    for (const Sortie& sortie : sorties_of(fleet, slot)) {
         const Int row = row_of_drone(data.type, route.type, sortie.drone);
         const auto [cargo, may] = flown(data, row, sortie, nowhere, nowhere, tier);
         allowed = allowed && may;

@@ -65,8 +65,7 @@ inline Amount load_of(const Trip& trip) { return amount_of(trip.load); }
 
 // How far a route of one trip is driven where distance alone costs, to how many, with what.
 struct Haul {
-    Int distance;
-    Int stops;
+    Int distance, stops;
     Amount load;
 };
 

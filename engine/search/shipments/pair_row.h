@@ -29,8 +29,6 @@ struct PairRow {
     std::vector<Int> way;      // how far it is there
     std::vector<Amount> load;  // (stop, tier) on leaving
     Int distance = 0;          // of all
-
-    bool serves_somebody() const { return node.size() > 2; }
 };
 
 // What rows are made and looked at by: one type of trucks that make one trip each, and whose times

@@ -7,7 +7,7 @@ namespace tandem {
 
 bool read_row(const PairRows& rows, const Fleet& fleet, Int slot, PairRow& row) {
     row.node.clear();
-    for (const Stop& stop : fleet.stop[slot].first(fleet.route[slot].length)) {
+    for (const Stop& stop : stops_of(fleet, slot)) {
         row.node.push_back(stop.node);
     }
     return rows.time(row);
@@ -15,7 +15,7 @@ bool read_row(const PairRows& rows, const Fleet& fleet, Int slot, PairRow& row) 
 
 bool is_written(const Fleet& fleet, Int slot, const std::vector<Int>& nodes) {
     if (nodes.size() <= 2) return fleet.route[slot].length == 0;
-    const View<Stop, 1> stops = fleet.stop[slot].first(fleet.route[slot].length);
+    const View<Stop, 1> stops = stops_of(fleet, slot);
     return std::equal(stops.begin(), stops.end(), nodes.begin(), nodes.end(),
                       [](const Stop& stop, Int node) { return stop.node == node; });
 }
