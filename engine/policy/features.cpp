@@ -1,7 +1,7 @@
 #include "policy/features.h"
 
 #include "guard.h"
-#include "policy/rarer.h"
+#include "policy/lookahead.h"
 #include "simulation/aboard.h"
 #include "simulation/simulator.h"
 #include "simulation/vehicle_log.h"

@@ -40,4 +40,24 @@ void describe_neighbours(const Setting& setting, View<const Int, 1> neighbours,
                          View<const bool, 1> served, const Candidate& candidate, const Unit& unit,
                          ActionFeatures& feature);
 
+// The open vehicle of a rollout, and whom it may serve.
+struct Duty {
+    const Setting& setting;
+    const Unit& unit;
+    const Vehicle& vehicle;
+    const VehicleLog& log;
+    View<const bool, 1> served;          // (node,)
+    View<const double, 2> vehicle_cost;  // (type, node), or none
+    Int num_nodes;                       // without padding
+};
+
+// Describe serving a customer.
+void describe_rarer(const Duty& duty, const Candidate& candidate, ActionFeatures& feature);
+
+// Describe the end of a trip, or with `for_good` of the vehicle's work.
+void describe_parting(const Duty& duty, bool for_good, ActionFeatures& feature);
+
+// Describe the open vehicle at an instant.
+void describe_duty(const Duty& duty, Int now, VehicleFeatures& feature);
+
 }  // namespace tandem

@@ -118,4 +118,233 @@ double present_cost(const ProblemData& data, Int k, View<const Line, 1> line, In
     return cost;
 }
 
+namespace {
+
+using Some = Vector<double, at_once>;
+
+constexpr std::array<double, at_once> ascending{0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0};
+
+// Return the numbers of a row from a place on.
+Some some(const double* row, Int place) {
+    Some numbers;
+    load(row + place, numbers);
+    return numbers;
+}
+
+// An operation that ends at a place, and what all up to there costs.
+struct EndedOperation {
+    double cost;
+    Int before, flight;
+
+    // Of those that cost the same, that which begins first is taken, then that which flies least
+    // far along the line.
+    bool is_better(const EndedOperation& other) const {
+        if (cost != other.cost) return cost < other.cost;
+        return before != other.before ? before < other.before : flight < other.flight;
+    }
+};
+
+// Finds the best operation up to each place of a line, one place after another.
+class Splitting {
+public:
+    Splitting(const ProblemData& data, Int k, View<Line, 1> line, Int length, SplitScratch& scratch)
+        : data_(data), k_(k), line_(line), length_(length), scratch_(scratch) {}
+
+    // Let operations begin where the line does.
+    void begin() { begin_at(0, 0.0); }
+
+    // Let operations that end at place `first` or behind begin where those of another split do.
+    void begin_behind(const SplitScratch& before, Int first) {
+        for (Int place = std::max(Int{0}, first - longest_operation); place < first; ++place) {
+            scratch_.cost[place] = before.cost[place];
+            scratch_.drive[place] = before.drive[place];
+            scratch_.distance[place] = before.distance[place];
+            scratch_.loops[place] = 0.0;
+            scratch_.looped_until[place] = place + 1;
+            scratch_.out[place] = before.out[place];
+        }
+    }
+
+    void end_at(Int j) {
+        EndedOperation best{infinite_cost, 0, no_flight};
+        if (j == length_ - 1 || drives_[line_[j].node]) {
+            drive_to(j, best);
+            if (data_.strategy.crossings && !waits_for_drones(type_) &&
+                is_launch_place(data_.no_launch, line_[j].node)) {
+                cross_to(j, best);
+            }
+        }
+        line_[j].before = best.before;
+        line_[j].flight = best.flight;
+        begin_at(j, best.cost);
+    }
+
+private:
+    static std::size_t at(Int place) { return std::size_t(place); }
+
+    // Let operations begin at a place, up to where all costs so much, and fly there.
+    void begin_at(Int place, double cost) {
+        const Line& here = line_[place];
+        const Int stays = stay_beside_launch(type_, places_[here.node].service_duration());
+        scratch_.cost[place] = cost;
+        scratch_.loops[place] = 0.0;
+        scratch_.looped_until[place] = place + 1;
+        scratch_.drive[place] = double(here.drive - stays);
+        scratch_.distance[place] = double(here.distance);
+        if (!data_.strategy.crossings || place == 0 || place == length_ - 1 || !flies_[here.node])
+            return;
+        const LegRow inward = legs_to(data_.back, type_.drone_travel, here.node);
+        SplitScratch::WaysOut& out = scratch_.out[place];
+        std::fill(out.duration.begin() + longest_operation - 1, out.duration.end(), infinite_cost);
+        for (Int back = 1; back < std::min(longest_operation, place + 1); ++back) {
+            const Int from = line_[place - back].node;
+            Leg way = leg_from(inward, from);
+            if (!is_launch_place(data_.no_launch, from)) way.duration = unreachable_leg;
+            out.duration[at(longest_operation - 1 - back)] = double(way.duration);
+            out.distance[at(longest_operation - 1 - back)] = double(way.distance);
+        }
+    }
+
+    // Try all operations on which the truck drives to place `j` itself. In place.
+    //
+    // Those that begin nearest are tried first, which mostly rules out the others.
+    void drive_to(Int j, EndedOperation& best) {
+        const TravelLegs legs = legs_of(data_.leg, type_.travel);
+        for (Int i = j - 1; i >= std::max(Int{0}, j - longest_operation); --i) {
+            const double before = loop(i, j, best.cost);
+            if (!(before <= best.cost)) continue;
+            const Int here = line_[i].node;
+            const double cost = driven_on(rate_, before, leg(legs, here, line_[j].node),
+                                          places_[here].service_duration());
+            if (cost <= best.cost) best = {cost, i, no_flight};
+        }
+    }
+
+    // Return what all costs up to place `i`, with flights to those up to `j` for which the truck
+    // waits there; not all of them once it is more than `most`.
+    double loop(Int i, Int j, double most) {
+        double& loops = scratch_.loops[i];
+        Int& until = scratch_.looped_until[i];
+        for (; until < j && scratch_.cost[i] + loops <= most; ++until) {
+            const Int customer = line_[until].node;
+            loops +=
+                flies_[customer] ? loop_cost(data_, k_, line_[i].node, customer) : infinite_cost;
+        }
+        return scratch_.cost[i] + loops;
+    }
+
+    // Try all operations on which the drone flies across to place `j`. In place.
+    void cross_to(Int j, EndedOperation& best) {
+        // From where on all between are served by the truck, and all but one.
+        Int all = j, all_but_one = j;
+        for (Int i = j - 2; i >= std::max(Int{0}, j - longest_operation); --i) {
+            const Int grounded = line_[j - 1].grounded - line_[i].grounded;
+            if (grounded > 1) break;
+            all_but_one = i;
+            if (grounded == 0) all = i;
+        }
+        for (Int flown = j - 1; flown > all_but_one; --flown) {
+            const Int node = line_[flown].node;
+            if (flies_[node]) fly_over(flown, drives_[node] ? all : all_but_one, j, best);
+        }
+    }
+
+    // Try all operations from place `first` or behind on which the drone serves place `flown`,
+    // and then flies to `j`. In place.
+    void fly_over(Int flown, Int first, Int j, EndedOperation& best) {
+        const Line &spared = line_[flown], &to = line_[j];
+        const Leg home = leg_to(legs_from(data_.leg, type_.home_travel, spared.node), to.node);
+        const Int back = places_by_air_[spared.node].service_duration() + home.duration;
+        if (!can_last(type_, back)) return;
+        const auto drive_until = double(to.drive - spared.spared_drive);
+        const auto distance_until = double(to.distance - spared.spared_distance);
+        const auto handled = double(handling_duration(type_));
+        const SplitScratch::WaysOut& out = scratch_.out[flown];
+        for (Int i = first; i < flown; i += at_once) {
+            const Int way = i + longest_operation - 1 - flown;
+            const Some flight = some(out.duration.data(), way) + double(back);
+            const Some distance = some(out.distance.data(), way) + double(home.distance);
+            const Some airborne = larger(flight, drive_until - some(&scratch_.drive[0], i));
+            const Some stops = double(j - i - 1) - some(ascending.data(), 0);
+            const Some alone = drive_cost(rate_, distance_until - some(&scratch_.distance[0], i)) +
+                               stops_cost(rate_, stops);
+            const Some cost = some(&scratch_.cost[0], i) +
+                              crossing_cost(rate_, airborne + handled, airborne, distance, alone);
+            const Some allowed = where_at_most(counted_until(type_, flight, airborne),
+                                               double(endurance_of(type_)), cost, infinite_cost);
+            if (least_of(allowed) <= best.cost) take_best(allowed, i, flown, j, best);
+        }
+    }
+
+    // Take the best of operations that begin at place `first` and behind. In place.
+    void take_best(const Some& allowed, Int first, Int flown, Int j, EndedOperation& best) const {
+        std::array<double, at_once> cost;
+        store(allowed, cost.data());
+        while (true) {
+            const auto least = std::min_element(cost.begin(), cost.end());
+            const EndedOperation found{*least, first + (least - cost.begin()), flown};
+            if (found.cost == infinite_cost || !found.is_better(best)) return;
+            if (can_fly(found.before, flown, j)) {
+                best = found;
+                return;
+            }
+            *least = infinite_cost;
+        }
+    }
+
+    // Tell whether the customer isn't too far away, and the drone's battery lasts until the truck
+    // is there.
+    bool can_fly(Int i, Int flown, Int j) const {
+        const Int customer = line_[flown].node;
+        if (!in_range(data_, type_, line_[i].node, customer) ||
+            !in_range(data_, type_, line_[j].node, customer)) {
+            return false;
+        }
+        if (!is_limited(type_)) return true;
+        const Flight flight = way_by_air(data_, type_, places_by_air_[customer], line_[i].node,
+                                         customer, line_[j].node)
+                                  .flight;
+        const Int drive = line_[j].drive - line_[flown].spared_drive - Int(scratch_.drive[i]);
+        return flight.can_wait(std::max(Int{0}, drive - flight.duration()));
+    }
+
+    const ProblemData& data_;
+    const Int k_;
+    const View<Line, 1> line_;
+    const Int length_;
+    SplitScratch& scratch_;
+    const VehicleType& type_ = data_.type[k_];
+    const Rate rate_ = data_.rate[k_];
+    const View<const bool, 1> drives_ = data_.can[k_][0];
+    const View<const bool, 1> flies_ = data_.can[k_][1];
+    const NodeTable places_ = data_.place.by_truck(type_);
+    const NodeTable places_by_air_ = data_.place.by_air(type_);
+};
+
+}  // namespace
+
+double split(const ProblemData& data, Int k, View<Line, 1> line, Int length,
+             SplitScratch& scratch) {
+    Splitting splitting(data, k, line, length, scratch);
+    splitting.begin();
+    for (Int j = 1; j < length; ++j) splitting.end_at(j);
+    return scratch.cost[length - 1];
+}
+
+double split_changed(const ProblemData& data, Int k, View<Line, 1> line, Int length,
+                     const Changed& changed, SplitScratch& scratch) {
+    Splitting splitting(data, k, line, length, scratch);
+    const auto [first, last, more] = changed.places;
+    splitting.begin_behind(changed.before, first);
+    Int dearer = 0;
+    for (Int j = first; j < length; ++j) {
+        splitting.end_at(j);
+        if (j <= last) continue;
+        // All that comes costs as before from here on, wherever an operation begins.
+        dearer = scratch.cost[j] - changed.before.cost[j - more] < changed.most ? 0 : dearer + 1;
+        if (dearer == longest_operation) return infinite_cost;
+    }
+    return scratch.cost[length - 1];
+}
+
 }  // namespace tandem

@@ -1,7 +1,7 @@
 
 
 #include "rules/launch_place.h"
-#include "search/route/batteries.h"
+#include "search/route/charging.h"
 
 namespace tandem {
 namespace {

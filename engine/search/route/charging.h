@@ -2,9 +2,31 @@
 // trips of others, as these are planned.
 #pragma once
 
-#include "search/route/layout.h"
+#include "search/route/block.h"
 
 namespace tandem {
+
+// Write what a sortie launched at `node` may hover for, without and before windows. In place.
+//
+// That is what its flight leaves of its battery.
+void charge(NodeTable places, const TravelLegs& legs, const TravelLegs& homeward,
+            const VehicleType& type, Sortie& sortie, Int node);
+
+// Take what a sortie whose arrivals are known needs to wait for windows in the air. In place.
+//
+// Later it waits no longer, as long as windows are the same; sooner, nothing is said of.
+void hover(NodeTable places, const VehicleType& type, Sortie& sortie, BlockSums& sums);
+
+// Write with what the drone of a sortie has come aboard, and when it can fly. In place.
+//
+// All that it flies before is timed; its trip's first sortie is `first`.
+void note_charge(const VehicleType& type, View<Sortie, 1> sorties, Int index, Int first);
+
+// Let a sortie take off with what its battery then has. In place.
+//
+// Returns how long after `time`, when the truck reaches the block, that is at least, if the drone
+// is charged from a recovery on, which comes as much later as the truck.
+Int await_charge(const VehicleType& type, Sortie& sortie, Int takeoff, Int time);
 
 // Let each trip of a timed route begin once there was a place to charge for what it needs.
 //

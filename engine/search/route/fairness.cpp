@@ -13,14 +13,8 @@ double amount_at(const ProblemData& data, Int node) {
 }
 
 double load_on(const ProblemData& data, const Fleet& fleet, Int slot) {
-    const Route& route = fleet.route[slot];
     double load = 0.0;
-    for (const Stop& stop : stops_of(fleet, slot)) {
-        if (stop.kind == customer_stop) load += amount_at(data, stop.node);
-    }
-    for (const Sortie& sortie : sorties_of(fleet, slot)) {
-        for (const Int node : sortie.customers()) load += amount_at(data, node);
-    }
+    for_each_served(fleet, slot, [&](Int node) { load += amount_at(data, node); });
     return load;
 }
 

@@ -2,7 +2,6 @@
 
 #include "rules/hub.h"
 #include "search/route/charging.h"
-#include "search/route/lags.h"
 
 namespace tandem {
 namespace {

@@ -56,4 +56,55 @@ Int home_of(const ProblemData& data, const Searcher& searcher, Int node) {
     return home;
 }
 
+namespace {
+
+// Tell whether all shipments on a trip are whole, by its sorties among some; `node_at` tells who
+// is served at each stop.
+template <class NodeAt>
+bool keep_pairs(const ProblemData& data, View<const Sortie, 1> sorties, const Trip& trip,
+                const NodeAt& node_at) {
+    // By its truck, or by another sortie than that which delivers.
+    const auto comes_before = [&](Int pickup, Int behind, const Sortie* delivering) {
+        for (Int p = behind - 1; p > trip.first; --p) {
+            if (node_at(p) == pickup) return true;
+        }
+        return std::ranges::any_of(sorties, [&](const Sortie& sortie) {
+            return &sortie != delivering && sortie.launch >= trip.first &&
+                   sortie.recovery < behind && sortie.serves(pickup);
+        });
+    };
+    WholePairs pairs(data.pair);
+    const auto serve = [&](Int node, Int stop) {
+        pairs.serve(node, [&](Int pickup) { return comes_before(pickup, stop, nullptr); });
+    };
+    for (Int p = trip.first + 1; p < trip.last; ++p) {
+        if (node_at(p) >= 0) serve(node_at(p), p);
+    }
+    for (const Sortie& sortie : sorties) {
+        if (sortie.launch < trip.first || sortie.launch > trip.last) continue;
+        for (Int visit = 0; visit < sortie.count; ++visit) {
+            pairs.serve(sortie.nodes[visit], [&](Int pickup) {
+                return is_brought_within(data.pair, sortie.nodes, visit) ||
+                       comes_before(pickup, sortie.launch + 1, &sortie);
+            });
+        }
+    }
+    return pairs.are_kept();
+}
+
+}  // namespace
+
+bool keeps_pairs(const ProblemData& data, const Route& route, View<const Stop, 1> stops,
+                 View<const Trip, 1> trips, View<const Sortie, 1> sorties) {
+    const View<const Trip, 1> made = trips.first(route.trips);
+    const auto node_at = [&](Int p) {
+        return stops[p].kind == customer_stop ? stops[p].node : nowhere;
+    };
+    return std::ranges::all_of(made, [&](const Trip& trip) {
+        return keep_pairs(data, sorties.first(route.sorties), trip, node_at) &&
+               (!is_stack(data.type[route.type]) ||
+                keeps_stack(data.pair, trip.first + 1, trip.last, node_at));
+    });
+}
+
 }  // namespace tandem

@@ -22,7 +22,6 @@ inline Int served_place(const ProblemData& data, const Fleet& fleet, Int node) {
 // Call `visit` with each customer of a route.
 template <class Visit>
 void for_each_served(const Fleet& fleet, Int slot, const Visit& visit) {
-    const Route& route = fleet.route[slot];
     for (const Stop& stop : stops_of(fleet, slot)) {
         if (stop.kind == customer_stop) visit(stop.node);
     }

@@ -7,7 +7,7 @@
 #include "search/route/fairness.h"
 #include "search/route/rarer.h"
 #include "search/search.h"
-#include "search/shipments/rows.h"
+#include "search/shipments/pair_row.h"
 
 namespace tandem {
 namespace {
