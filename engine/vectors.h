@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <cstring>
+#include <type_traits>
 
 // Before a function whose loops are compiled for several families of processors, the best of which
 // is taken as the library is loaded. Results are the same: nothing is fused.
@@ -24,44 +25,12 @@ constexpr int register_bytes = 32;
 constexpr int register_bytes = 16;
 #endif
 
-// So many bytes of numbers in one register.
+// So many bytes of numbers in one register, and whole numbers as large.
 template <class Number, int bytes>
-struct Register;
-
-template <>
-struct Register<float, 16> {
-    using Type = float __attribute__((vector_size(16)));
-    using Integers = std::int32_t __attribute__((vector_size(16)));
-};
-
-template <>
-struct Register<float, 32> {
-    using Type = float __attribute__((vector_size(32)));
-    using Integers = std::int32_t __attribute__((vector_size(32)));
-};
-
-template <>
-struct Register<float, 64> {
-    using Type = float __attribute__((vector_size(64)));
-    using Integers = std::int32_t __attribute__((vector_size(64)));
-};
-
-template <>
-struct Register<double, 16> {
-    using Type = double __attribute__((vector_size(16)));
-    using Integers = std::int64_t __attribute__((vector_size(16)));
-};
-
-template <>
-struct Register<double, 32> {
-    using Type = double __attribute__((vector_size(32)));
-    using Integers = std::int64_t __attribute__((vector_size(32)));
-};
-
-template <>
-struct Register<double, 64> {
-    using Type = double __attribute__((vector_size(64)));
-    using Integers = std::int64_t __attribute__((vector_size(64)));
+struct Register {
+    using Integer = std::conditional_t<sizeof(Number) == 4, std::int32_t, std::int64_t>;
+    typedef Number Type __attribute__((vector_size(bytes)));
+    typedef Integer Integers __attribute__((vector_size(bytes)));
 };
 
 // So many numbers, register by register.

@@ -1,5 +1,7 @@
 """Insertion places that are kept for as long as their route stays the same."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -17,7 +19,7 @@ from training.instances import generate
 
 pytestmark = pytest.mark.slow
 
-TURNS, ROUNDS = 10, 200
+TURNS, ROUNDS = 150, 40
 
 
 def begun(problem: Problem, data: ProblemData) -> Searcher:
@@ -29,10 +31,13 @@ def begun(problem: Problem, data: ProblemData) -> Searcher:
 
 
 @pytest.mark.parametrize(("variant", "seed"), [
-    ("soft", 3), ("soft", 4), ("drone", 3), ("drone", 5), ("mixed", 4)])
+    ("soft", 3), ("soft", 4), ("multitrip", 4), ("drone", 3), ("mixed", 4)])
 def test_places_kept_are_the_cheapest_where_more_than_distance_counts(variant: str,
                                                                       seed: int) -> None:
     problem = generate(np.random.default_rng(seed), 50, variant)
+    # Trips more are tried by chance.
+    problem = replace(problem, vehicle_types=tuple([
+        replace(kind, max_trips=1) for kind in problem.vehicle_types]))
     data = make_data(problem, pack([problem]))
     # What is drawn while places are looked for is of no consequence then.
     data = data._replace(strategy=data.strategy._replace(
@@ -41,13 +46,15 @@ def test_places_kept_are_the_cheapest_where_more_than_distance_counts(variant: s
     assert not can_be_linked(data)
     searcher, changed = begun(problem, data), 0
     for _ in range(ROUNDS):
+        # Most turns are undone, so that places are kept of most customers on most routes.
+        searcher.value.temperature = 0.0
         anneal(data, searcher, TURNS, ANY)
         anew, before = copied(data, searcher), served_by(searcher)
         anew.rng[:], anew.count.turn = searcher.rng, searcher.count.turn
-        anew.value.temperature = searcher.value.temperature
         for each in (searcher, anew):
+            each.value.temperature = searcher.value.cost
             anneal(data, each, 1, ANY)
         assert sorted(served_by(searcher)) == sorted(served_by(anew))
         assert searcher.value.cost == pytest.approx(float(anew.value.cost))
         changed += served_by(searcher) != before
-    assert changed > ROUNDS / 20
+    assert changed > ROUNDS / 2
