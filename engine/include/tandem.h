@@ -704,17 +704,14 @@ int tandem_exchange_routes(const tandem_problem_data* data, tandem_search* searc
                            const tandem_i64_1d* one, const tandem_i64_1d* other, int64_t* done);
 /* Write which type's trucks drive least for each customer alone. */
 int tandem_write_nearest_types(const tandem_problem_data* data, const tandem_i64_1d* nearest);
-/* Write how much more is driven by a type if neighbours follow one another. */
-int tandem_write_excess(const tandem_problem_data* data, int64_t k, int64_t ranks,
-                        const tandem_i64_1d* excess);
-/* Make keys of what pairs cost, but for its last bits, and of their numbers. */
-int tandem_number_pairs(const tandem_i64_1d* excess, int64_t coarse);
-/* Join routes end to end, pair after pair; write who comes before and behind each customer. */
+/* Write keys of customers and their nearest neighbours, by how much more is driven by a type if
+   they follow one another, but for its last bits, and then by their numbers. */
+int tandem_write_pairs(const tandem_problem_data* data, int64_t k, int64_t ranks,
+                       const tandem_i64_1d* keys);
+/* Join routes end to end, or `either_way` at either end, pair after pair; write who comes before
+   and behind each customer. */
 int tandem_join(const tandem_problem_data* data, int64_t k, int64_t ranks,
-                const tandem_i64_1d* keys, const tandem_i64_2d* beside);
-/* Likewise at either end. */
-int tandem_join_either_way(const tandem_problem_data* data, int64_t k, int64_t ranks,
-                           const tandem_i64_1d* keys, const tandem_i64_2d* beside);
+                const tandem_i64_1d* keys, bool either_way, const tandem_i64_2d* beside);
 /* Tell how far the routes of all are whom a type may serve. */
 int tandem_length_of(const tandem_problem_data* data, int64_t k, const tandem_i64_2d* beside,
                      int64_t* length);

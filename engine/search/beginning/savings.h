@@ -47,9 +47,9 @@ void write_nearest_types(const ProblemData& data, View<Int, 1> nearest);
 // as long (`neighbourhood/tables`), at the speed of drives from where routes begin.
 void write_excess(const ProblemData& data, Int k, Int ranks, View<Int, 1> excess);
 
-// Makes keys of what pairs cost, but for its last `coarse` bits, and of their numbers. Sorted as
-// they are, which processors do many at a time.
-void number_pairs(View<Int, 1> excess, Int coarse);
+// Makes keys of what pairs cost, but for its last bits, and of their numbers. Sorted as they are,
+// which processors do many at a time.
+void number_pairs(View<Int, 1> excess);
 
 // A customer and a neighbour, `nowhere` for none.
 struct Neighbours {

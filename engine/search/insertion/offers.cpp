@@ -84,15 +84,15 @@ double price_offer(const ProblemData& data, const Searcher& searcher, Move& move
 
 // Where a trip more begins: before a customer whom the former trip's others follow, behind one whom
 // they go before, or for a customer alone.
-enum class Begun { before, behind, alone };
+enum class Beginning { before, behind, alone };
 
 // Lists a customer where a trip more begins behind stop `p`.
-void offer_trip(const Insertion& insertion, Int slot, double cost, Int p, Begun begun) {
+void offer_trip(const Insertion& insertion, Int slot, double cost, Int p, Beginning beginning) {
     const auto& [data, searcher, node, enlarge, best] = insertion;
     Offer& move = add_offer(searcher, cost, slot, p, p + 1);
     const Int depot = data.type[move.type].depot;
-    if (begun != Begun::alone) {
-        split_trip(move, p, depot, node, begun == Begun::behind);
+    if (beginning != Beginning::alone) {
+        split_trip(move, p, depot, node, beginning == Beginning::behind);
         return;
     }
     move.add(How::begin, depot, p + 1);
@@ -263,7 +263,7 @@ void offer_trips(const Insertion& insertion, Int slot) {
         if (!alone && loads_cost(data, k)) cost -= load_cost(data, now, slot);
         if (alone && !may_begin(data, k, node)) continue;
         if (cost < best && (p < 0 || !data.place[0][node].too_late(stops[p].leave))) {
-            offer_trip(insertion, slot, cost, p, alone ? Begun::alone : Begun(until));
+            offer_trip(insertion, slot, cost, p, alone ? Beginning::alone : Beginning(until));
         }
     }
 }
@@ -277,7 +277,7 @@ void offer_trips_apart(const Insertion& insertion, Int slot) {
     const Int k = route.type, last = route.length - 1;
     const double rate = data.rate[k].distance;
     for (Int p = -1; p <= last; ++p) {
-        Begun begun = Begun::alone;
+        Beginning beginning = Beginning::alone;
         Int here, there;
         if (p < 0) {
             here = stops[0].node;
@@ -294,22 +294,22 @@ void offer_trips_apart(const Insertion& insertion, Int slot) {
         } else {
             here = stops[p].node;
             there = stops[p + 1].node;
-            begun = Begun::behind;
+            beginning = Beginning::behind;
         }
         double cost = double(detour_by_reload(data, k, here, node, there, p != last)) * rate;
-        if (begun == Begun::behind) {
+        if (beginning == Beginning::behind) {
             const double behind =
                 double(detour_by_reload(data, k, here, node, there, false)) * rate;
             if (behind < cost) {
-                begun = Begun::before;
+                beginning = Beginning::before;
                 cost = behind;
             }
         }
         cost += data.rate[k].stop - most_saved(data, now, slot, node);
         // Whoever was served may be carried less far, at best next to nowhere.
         if (loads_cost(data, k)) cost -= load_cost(data, now, slot);
-        if (begun == Begun::alone && !may_begin(data, k, node)) continue;
-        if (cost < best) offer_trip(insertion, slot, cost, p, begun);
+        if (beginning == Beginning::alone && !may_begin(data, k, node)) continue;
+        if (cost < best) offer_trip(insertion, slot, cost, p, beginning);
     }
 }
 

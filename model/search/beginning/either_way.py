@@ -25,7 +25,7 @@ def shortest_routes(data: ProblemData, k: int) -> list[list[int]]:
     """
     ranks, count = data.near.shape[1], int(data.type[k].count)
     keys = ranked_pairs(data, k, ranks)
-    ways = [joined(data, k, ranks, keys, how) for how in ("tandem_join", "tandem_join_either_way")]
+    ways = [joined(data, k, ranks, keys, either_way) for either_way in (False, True)]
 
     def cost(beside: IntArray) -> tuple[int, float]:
         routes = int(np.count_nonzero(beside[0, data.num_depots:] == NOWHERE))

@@ -17,9 +17,6 @@ from model.search.route.layout import NOWHERE, ProblemData
 NEIGHBOURS = 64
 """With how many neighbours each customer's route may be joined."""
 
-KEY_BITS = 62
-"""Of a key at most."""
-
 
 def savings_routes(data: ProblemData, k: int) -> list[list[int]]:
     """Join the customers that a truck of type `k` may serve to routes.
@@ -40,18 +37,15 @@ def ranked_pairs(data: ProblemData, k: int, ranks: int) -> IntArray:
     Equal savings come in the order of the pairs. `pair` tells what a key stands for.
     """
     keys = np.empty((data.num_nodes - data.num_depots) * ranks, np.int64)
-    call("tandem_write_excess", data, k, ranks, keys)
-    largest = max(abs(int(keys.min(initial=0))), int(keys.max(initial=0)))
-    coarse = max(0, largest.bit_length() + len(keys).bit_length() - KEY_BITS)
-    call("tandem_number_pairs", keys, coarse)
+    call("tandem_write_pairs", data, k, ranks, keys)
     return np.sort(keys[keys < 0])
 
 
 def joined(data: ProblemData, k: int, ranks: int, keys: IntArray,
-           how: str = "tandem_join") -> IntArray:
+           either_way: bool = False) -> IntArray:
     """Return who comes before and behind each, (2, node), joined by such keys in order."""
     beside = np.full((2, data.num_nodes), NOWHERE)
-    call(how, data, k, ranks, keys, beside)
+    call("tandem_join", data, k, ranks, keys, either_way, beside)
     return beside
 
 
