@@ -51,8 +51,9 @@ def sources() -> dict[str, set[str]]:
 def test_a_type_has_its_name_to_itself() -> None:
     names = Counter(name for path in (*ENGINE.rglob("*.h"), *ENGINE.rglob("*.cpp"))
                     if path.relative_to(ENGINE).parts[0] not in ("include", "tests")
-                    for name in re.findall(r"^ *(?:struct|class) ([A-Z]\w*)(?!\w|<)[^;]*$",
-                                           path.read_text(), re.MULTILINE))
+                    for name in re.findall(
+                        r"^ *(?:struct|class|enum class) ([A-Z]\w*)(?!\w|<)[^;]*$",
+                        path.read_text(), re.MULTILINE))
     assert [name for name, homes in names.items() if homes > 1] == []
 
 
