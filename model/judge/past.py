@@ -288,10 +288,10 @@ def resumed_service(problem: Problem, vehicle_type: VehicleType, node: int, read
 
     At launch sites, when drones may take off.
     """
+    begun = None if fact is None else fact.service_start
     if node < problem.num_depots:
-        opened = max(ready, problem.depots[node].earliest)
+        opened = max(ready, problem.depots[node].earliest) if begun is None else begun
         return opened, opened
     customer = problem.customer_at(node)
-    begun = None if fact is None else fact.service_start
     start = service_start(customer, max(ready, now)) if begun is None else begun
     return start, start + vehicle_type.service_at(customer)

@@ -94,6 +94,18 @@ def test_who_may_wait_does_so_until_the_next_departure(service: httpx.Client) ->
     assert not outlook["alone"]["leaves"]
 
 
+def test_whoever_leaves_before_the_depot_opens_is_planned_on_from(service: httpx.Client) -> None:
+    day = begun(service)
+    before = plan_of(service, day)["routes"][0]
+    told(service, day, clock(), {"kind": "vehicle.departed", "vehicle": before["vehicle"],
+                                 "at": 50}, at=60)
+    plan = plan_of(service, day)
+    trip = next(each for each in plan["routes"]
+                if each["vehicle"] == before["vehicle"])["trips"][0]
+    assert trip["stops"][0]["departure"] == 50
+    assert {each["code"] for each in plan["replan"]["excused"]} == {"SHIFT"}
+
+
 def test_what_has_happened_stays_and_is_planned_on_from(service: httpx.Client) -> None:
     day = begun(service)
     before = plan_of(service, day)
