@@ -23,7 +23,8 @@ FORMS = (
     "VehicleTypeInput", "CostsInput", "SpeedChangeInput", "ShiftInput", "BreakInput",
     "BreakStartInput", "OvertimeInput",
     "DronesInput", "TurnaroundInput", "DroneCostsInput", "EnergyInput", "PowerInput", "ClimbInput",
-    "WindInput", "LoadDimensionInput", "OptionsInput",
+    "WindInput", "LoadDimensionInput", "OptionsInput", "ChangeCostsInput", "LatenessRiskInput",
+    "SpreadInput",
 )
 """Schemas that the console makes forms of."""
 

@@ -102,17 +102,22 @@ def test_ten_minutes_of_a_day_are_seen_by_all_whom_they_concern(
     expect(desk.locator(".map-label.news:is(.late, .later)").first).to_contain_text("min")
 
     living.until(600)
-    expect(desk.get_by_role("timer")).to_have_text(clock_at(client, day))
-    expect(desk.get_by_label("Time of day")).to_have_value("600")
-    told = standing(client, day)
-    assert told.is_planned or told.failure is None
-    assert {each.id: each.state for each in told.orders}[first] == "served"
-    assert {each.id for each in told.orders} == {*"ABCDEFG"}
+    hold_to_the_day(client, day, desk, first)
     assert living.began + 600 / SPEED <= time.monotonic()
     driver.evaluate("dispatchEvent(new Event('online'))")
     expect(driver.locator("li.done")).to_have_count(2)
     customer.reload()
     expect(customer.get_by_role("heading", name="What changed")).to_be_visible()
+
+
+def hold_to_the_day(client: httpx.Client, day: str, desk: Page, served: str) -> None:
+    """Hold what the desk shows, and the day, to what was told until ten minutes."""
+    expect(desk.get_by_role("timer")).to_have_text(clock_at(client, day))
+    expect(desk.get_by_label("Time of day")).to_have_value("600")
+    told = standing(client, day)
+    assert told.is_planned or told.failure is None
+    assert {each.id: each.state for each in told.orders}[served] == "served"
+    assert {each.id for each in told.orders} == {*"ABCDEFG"}
 
 
 def link_of_driver(client: httpx.Client, day: str) -> str:

@@ -112,9 +112,10 @@ def test_what_cannot_be_planned_is_said_and_the_plan_before_stays(
     day = begun(client)
     page = open_page(f"{service}/#day={day}")
     expect(page.get_by_role("timer")).to_be_visible()
-    # Its depot isn't open yet.
-    client.post(f"/days/{day}/events", json=[
-        {"event_id": "early", "kind": "vehicle.departed", "vehicle": "van-1", "at": 10}])
+    # No event that is accepted does so: the service says it in its place.
+    page.route(f"**/days/{day}", lambda route: route.fulfill(json={
+        **client.get(f"/days/{day}").json(), "failure": "It can't be planned."}))
+    client.post(f"/days/{day}/events", json=[{"event_id": "later", "kind": "clock", "at": 10}])
     expect(page.get_by_role("alert")).to_contain_text("the plan before stays")
     expect(page.locator("#total-cost")).to_be_visible()
 

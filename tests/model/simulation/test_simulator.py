@@ -91,7 +91,7 @@ def test_random_rollouts_pass_the_checker_at_the_cost_it_finds() -> None:
             solution = extract(problem, pack([problem]), rollout.actions)
             evaluation = check(problem, solution)
             assert evaluation.violations == ()
-            terms = astuple(evaluation.cost)
+            terms = astuple(evaluation.cost)[:-1]  # the judge alone knows of changes
             assert rollout.cost.tolist() == pytest.approx(terms, rel=1e-9, abs=1e-9)
 
 

@@ -106,7 +106,8 @@ def test_only_what_was_quoted_is_accepted_and_only_soon(
         return service.post(f"/days/{of}/quotes/{by}/accept", json={"slot": slot}).status_code
 
     assert accept(other, token, 0) == 410
-    assert accept(day, token[:-1] + ("A" if token[-1] != "A" else "B"), 0) == 410
+    # Its last letter has bits that count for nothing.
+    assert accept(day, f"{token[:-2]}{'A' if token[-2] != 'A' else 'B'}{token[-1]}", 0) == 410
     assert accept(day, token, 3) == 422
     assert accept(day, token, 40) == 422
     monkeypatch.setattr(quoting, "LAPSES", -1)
