@@ -51,6 +51,9 @@ DECODED_AT_ONCE = 2**20
 
 _ROW = re.compile(rb"\[[-+0-9.eE,\s]{100,}+\]")
 
+LONGEST_TOLD = 1000
+"""Characters of what is wrong that are told, from its beginning and its end."""
+
 MOST_KEYS = 20
 """Keys of an object among which the one is looked for that msgspec doesn't name."""
 
@@ -113,7 +116,7 @@ def _require_shape(body: bytes, model: type[BaseModel]) -> None:
             read_shape(body, model)
             return
         except msgspec.ValidationError as error:
-            told = str(error)
+            told = _shortened(str(error))
         except (msgspec.DecodeError, RecursionError):
             # In the same words as of short bodies.
             require_json(body)
@@ -121,6 +124,13 @@ def _require_shape(body: bytes, model: type[BaseModel]) -> None:
     # What doesn't fit may be followed by what is no JSON.
     require_json(body)
     raise InvalidRequestError(_errors_beside_rows(body, model) or _errors_first(body, model, told))
+
+
+def _shortened(told: str) -> str:
+    """Return a message of msgspec without the middle of a name that no field has."""
+    if len(told) <= 2 * LONGEST_TOLD:
+        return told
+    return f"{told[:LONGEST_TOLD]}…{told[-LONGEST_TOLD:]}"
 
 
 def require_json(body: bytes) -> None:
