@@ -3,6 +3,7 @@
 from typing import Annotated, Literal, Self
 
 from pydantic import Discriminator, Field, RootModel, model_validator
+from pydantic_core import PydanticCustomError
 
 from app.schemas.customer import CustomerInput
 from app.schemas.fields import Duration, Input, Instant, Location, Name
@@ -53,6 +54,30 @@ class OrderCancelled(DayEvent):
 
     kind: Literal["order.cancelled"] = Field(description=KIND)
     order: Name = Field(description="Id of the customer or the shipment.")
+
+
+class OrderPinned(DayEvent):
+    """A dispatcher settles by hand who serves an order; `undone`: planning decides again."""
+
+    kind: Literal["order.pinned"] = Field(description=KIND)
+    order: Name = Field(description="Id of the customer or the shipment.")
+    vehicle: Name | None = Field(
+        None, description="Who serves it, in all plans to come. Stated unless `undone`.")
+    after: Name | None = Field(
+        None, description="Id of a customer whom the same vehicle serves before, somewhere; of "
+        "customers alone. Null: wherever it fits best.")
+    undone: bool = Field(False, description="Lifts what was settled of the order.")
+
+    @model_validator(mode="after")
+    def _is_whole(self) -> Self:
+        """Refuse what settles nothing."""
+        if self.vehicle is None and not self.undone:
+            raise PydanticCustomError(
+                "MISSING_FIELD", "No vehicle is stated: name one, or say `undone`.")
+        if self.after == self.order:
+            raise PydanticCustomError(
+                "OUT_OF_RANGE", "It can't be served after itself: name another in `after`.")
+        return self
 
 
 class VehicleDeparted(DayEvent):
@@ -133,7 +158,7 @@ class Clock(DayEvent):
 
 
 AnyEvent = Annotated[
-    OrderStated | OrderCancelled | VehicleDeparted | VehicleArrived | VehicleServed
+    OrderStated | OrderCancelled | OrderPinned | VehicleDeparted | VehicleArrived | VehicleServed
     | VehicleBroken | VehicleDelayed | VehiclePosition | DroneFlown | DroneLost | Clock,
     Discriminator("kind")]
 

@@ -14,9 +14,9 @@ Data = dict[str, Any]
 
 
 CLIENTS = frozenset({
-    "order.placed", "order.changed", "order.cancelled", "vehicle.departed", "vehicle.arrived",
-    "vehicle.served", "vehicle.failed", "vehicle.broken", "vehicle.delayed", "vehicle.position",
-    "drone.launched", "drone.recovered", "drone.lost", "clock"})
+    "order.placed", "order.changed", "order.cancelled", "order.pinned", "vehicle.departed",
+    "vehicle.arrived", "vehicle.served", "vehicle.failed", "vehicle.broken", "vehicle.delayed",
+    "vehicle.position", "drone.launched", "drone.recovered", "drone.lost", "clock"})
 """Kinds of events that clients and drivers tell; others are the service's own."""
 
 KINDS = (*sorted(CLIENTS), PLAN_SEEN, "day.begun", "plan.changed", "eta.changed", "order.at_risk")
@@ -32,6 +32,13 @@ class Pace(NamedTuple):
 NO_PACE = Pace()
 
 
+class Pin(NamedTuple):
+    """Who serves an order, as its dispatcher settled by hand."""
+
+    vehicle: str
+    after: str | None = None  # an order that the vehicle serves before
+
+
 @dataclass
 class ToldDay:
     """What was told of a day so far."""
@@ -45,6 +52,7 @@ class ToldDay:
     delays: list[LoggedEvent] = field(default_factory=list)
     sighted: dict[str, LoggedEvent] = field(default_factory=dict)  # last, by vehicle
     told_at: dict[str, int] = field(default_factory=dict)  # by vehicle, milliseconds since 1970
+    pins: dict[str, Pin] = field(default_factory=dict)  # by order, the last one last
     clock: int | None = None  # the latest time, of a day that goes by what it is told
     etas: dict[str, float] = field(default_factory=dict)  # that were told, by order
     at_risk: set[str] = field(default_factory=set)
@@ -93,6 +101,8 @@ def _take(told: ToldDay, event: LoggedEvent) -> None:
         _state(told, about)
     elif event.kind == "order.cancelled":
         _cancel(told, about["order"])
+    elif event.kind == "order.pinned":
+        _pin(told, about["order"], event.vehicle, about)
     elif event.kind == "drone.lost" or (event.reason in GROUNDING and "drone" in about):
         told.lost.add(about["drone"])
     elif event.kind == "vehicle.delayed":
@@ -107,7 +117,7 @@ def _take(told: ToldDay, event: LoggedEvent) -> None:
         told.etas[about["order"]] = about["arrival"]
     elif event.kind == "order.at_risk":
         (told.at_risk.add if about["at_risk"] else told.at_risk.discard)(about["order"])
-    if event.vehicle is not None and event.kind in CLIENTS:
+    if event.vehicle is not None and event.kind in CLIENTS and event.kind != "order.pinned":
         told.told_at[event.vehicle] = event.time
 
 
@@ -117,6 +127,20 @@ def _state(told: ToldDay, about: Mapping[str, Any]) -> None:
     order = about[kind]
     orders[order["id"]] = order
     told.cancelled.pop(order["id"], None)
+
+
+def _pin(told: ToldDay, order: str, vehicle: str | None, about: Mapping[str, Any]) -> None:
+    told.pins.pop(order, None)
+    if vehicle is None or about.get("undone"):
+        return
+    told.pins[order] = Pin(vehicle, about.get("after"))
+    # Of pins in a circle the last counts.
+    other = about.get("after")
+    while other in told.pins and other != order:
+        pin = told.pins[other]
+        if pin.after == order:
+            told.pins[other] = pin._replace(after=None)
+        other = pin.after
 
 
 def _cancel(told: ToldDay, order: str) -> None:

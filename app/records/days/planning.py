@@ -5,6 +5,7 @@ from collections.abc import Collection, Mapping, Sequence
 from typing import Any
 
 from app.records.days.fold import Data, ToldDay
+from app.records.days.pins import pinned
 from app.records.days.rows import Begun
 from app.records.days.sighting import late_by_position
 from app.records.days.spreads import risk_of
@@ -74,7 +75,7 @@ def asked(begun: Begun, told: ToldDay, plan: PlanInput | None,
                   if order not in told.elsewhere or order in kept}
         request[name] = [_released(each, failed.get(order))
                          for order, each in {**wanted, **back}.items()]
-    return request
+    return pinned(request, told, plan or NOBODY, now) if told.pins else request
 
 
 def _released(order: Data, at: float | None) -> Data:

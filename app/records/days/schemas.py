@@ -54,6 +54,13 @@ class _Reply(BaseModel):
     model_config = ConfigDict(extra="forbid")
 
 
+class PinReply(_Reply):
+    """What a dispatcher settled of an order by hand."""
+
+    vehicle: str = Field(description="Who serves it.")
+    after: str | None = Field(None, description="Whom the vehicle serves before.")
+
+
 class OrderReply(_Reply):
     """How an order stands."""
 
@@ -71,6 +78,8 @@ class OrderReply(_Reply):
     chance: float | None = Field(None, description="That of being late for its window.")
     told: float | None = Field(None, description="The arrival that `eta.changed` told last.")
     at_risk: bool = Field(False, description="Whether `order.at_risk` holds.")
+    pinned: PinReply | None = Field(
+        None, description="What `order.pinned` settled and nobody lifted.")
 
 
 class VehicleReply(_Reply):

@@ -3,7 +3,7 @@
 import re
 import secrets
 import uuid
-from collections.abc import Collection, Iterable
+from collections.abc import Collection, Iterable, Iterator
 from datetime import UTC, datetime, timedelta
 from typing import Any
 
@@ -16,7 +16,7 @@ from app.records.days.errors import (
     DayOverError, NoDayPlanError, TooManyDayEventsError, UnknownDayError,
 )
 from app.records.days.events import (
-    AnyEvent, DayEventsRequest, DroneFlown, DroneLost, OrderCancelled, OrderStated,
+    AnyEvent, DayEventsRequest, DroneFlown, DroneLost, OrderCancelled, OrderPinned, OrderStated,
 )
 from app.records.days.fold import ToldDay, fold, visits
 from app.records.days.news import served_orders
@@ -25,7 +25,7 @@ from app.records.days.rows import Begun, DayRow, DayTerms, LoggedEvent
 from app.records.days.runner import now_of
 from app.records.days.schemas import (
     AcceptRequest, CustomerLinksReply, DayEventsReply, DayReply, DayRequest, LoggedReply,
-    OrderReply, OrderState, TakenReply, VehicleReply,
+    OrderReply, OrderState, PinReply, TakenReply, VehicleReply,
 )
 from app.records.days.spreads import chance_of, is_stated, without_chances
 from app.records.days.store import BY_CLIENT, DayStore
@@ -246,13 +246,14 @@ class DayService:
                 (customers if kind == "customer" else shipments)[event.order] = raw[number][kind]
                 orders.add(event.order)
                 origin[event.order] = number
-            elif isinstance(event, OrderCancelled) and event.order not in orders:
-                errors.append(InputError(
-                    code="UNKNOWN_CUSTOMER", path=f"$[{number}].order",
-                    message=f"The day has no order {event.order!r}: use the id of one."))
+            errors += [InputError(
+                code="UNKNOWN_CUSTOMER", path=f"$[{number}].{field}",
+                message=f"The day has no order {name!r}: use the id of one.")
+                for field, name in _orders_named(event) if name not in orders]
             field = "drone" if isinstance(event, DroneFlown | DroneLost) else "vehicle"
             vehicle = getattr(event, field, None)
-            if vehicle is not None and not _is_of(vehicle, counts):
+            if vehicle is not None and not (_is_of(vehicle, counts) and not (
+                    isinstance(event, OrderPinned) and "/" in vehicle)):
                 errors.append(InputError(
                     code="UNKNOWN_VEHICLE", path=f"$[{number}].{field}",
                     message=f"The fleet has no {field} {vehicle!r}: use its name in the plan."))
@@ -327,6 +328,14 @@ def logged(row: DayRow, event: LoggedEvent) -> LoggedReply:
                        vehicle=event.vehicle, reason=event.reason, about=event.about)
 
 
+def _orders_named(event: AnyEvent) -> Iterator[tuple[str, str]]:
+    """Yield the orders that an event names and that have to be there, each with its field."""
+    if isinstance(event, OrderCancelled | OrderPinned):
+        yield "order", event.order
+    if isinstance(event, OrderPinned) and event.after is not None:
+        yield "after", event.after
+
+
 def _is_of(name: str, counts: dict[str, int]) -> bool:
     """Tell whether a vehicle, or a drone of it, is of the fleet."""
     kind, _, number = name.partition("/")[0].rpartition("-")
@@ -348,15 +357,22 @@ def _orders(told: ToldDay, plan: PlanInput, now: float) -> Iterable[OrderReply]:
             state = "doubtful"
         yield OrderReply(id=order, state=state, vehicle=vehicle, arrival=visit.arrival,
                          told=told.etas.get(order), at_risk=order in told.at_risk,
-                         **chance_of(visit))
+                         pinned=_pin(told, order), **chance_of(visit))
     for left in plan.unassigned:
         seen.add(left.id)
-        yield OrderReply(id=left.id, state="left_out", at_risk=left.id in told.at_risk)
+        yield OrderReply(id=left.id, state="left_out", at_risk=left.id in told.at_risk,
+                         pinned=_pin(told, left.id))
     whole = {name.partition("/")[0] for name in seen}
     for order in (*told.customers, *told.shipments):
         if order not in seen and order not in whole:
             yield OrderReply(id=order, vehicle=told.elsewhere.get(order),
-                             state="served" if order in told.elsewhere else "waiting")
+                             state="served" if order in told.elsewhere else "waiting",
+                             pinned=_pin(told, order))
+
+
+def _pin(told: ToldDay, order: str) -> PinReply | None:
+    pin = told.pins.get(order.partition("/")[0])
+    return None if pin is None else PinReply(**pin._asdict())
 
 
 def _vehicles(told: ToldDay, plan: PlanInput, row: DayRow) -> list[VehicleReply]:

@@ -1,0 +1,100 @@
+"""What a dispatcher settles by hand, in the plans of a day."""
+
+from collections.abc import Iterator
+from typing import Any
+
+import httpx
+import pytest
+
+from app.records.days.fold import Pin, fold
+from app.records.days.rows import Begun, DayTerms, LoggedEvent
+from app.records.days.schemas import PinReply
+from app.serving.settings import Settings
+from tests.app.conftest import SearchingPlanner, ready, serving
+from tests.app.records.days.living import (
+    PROBLEM, begun, clock, order, plan_of, served_by, standing, told,
+)
+
+VANS = ("van-1", "van-2", "van-3")
+ROOMY = PROBLEM | {"fleet": [{**PROBLEM["fleet"][0], "capacity": [9]}]}
+
+
+@pytest.fixture(scope="module")
+def service(tmp_path_factory: pytest.TempPathFactory) -> Iterator[httpx.Client]:
+    """Return a client of a service with a database of this module's own."""
+    settings = Settings(data_dir=tmp_path_factory.mktemp("pins"), drain_seconds=0, role="api")
+    with serving(SearchingPlanner(), settings) as client:
+        yield ready(client)
+
+
+def pin(name: str, vehicle: str, **more: Any) -> dict[str, Any]:
+    """Return the event that an order is settled by hand."""
+    return {"kind": "order.pinned", "order": name, "vehicle": vehicle, **more}
+
+
+def tour(plan: dict[str, Any], vehicle: str) -> list[str]:
+    """Return whom a vehicle serves, in order."""
+    return [stop["id"] for route in plan["routes"] if route["vehicle"] == vehicle
+            for trip in route["trips"] for stop in trip["stops"] if stop["kind"] == "customer"]
+
+
+@pytest.mark.slow
+def test_pinned_order_stays_with_its_vehicle_until_that_is_lifted(service: httpx.Client) -> None:
+    day = begun(service, ROOMY)
+    free = plan_of(service, day)
+    other = next(van for van in VANS if van != served_by(free)["A"])
+    told(service, day, clock(), pin("A", other), at=10)
+    assert served_by(plan_of(service, day))["A"] == other
+    told(service, day, order("G", 1, 1), at=20)
+    held = plan_of(service, day)
+    assert served_by(held)["A"] == other
+    assert {each.id: each.pinned for each in standing(service, day).orders} == {
+        **dict.fromkeys("BCDEFG"), "A": PinReply(vehicle=other)}
+    told(service, day, {"kind": "order.pinned", "order": "A", "undone": True},
+         {"kind": "order.cancelled", "order": "G"}, at=30)
+    assert standing(service, day).orders[0].pinned is None
+    assert plan_of(service, day)["cost"]["total"] <= free["cost"]["total"]
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("names", ["AB", "BA", "FD"])
+def test_who_is_pinned_behind_another_is_served_after_it(service: httpx.Client,
+                                                         names: str) -> None:
+    day = begun(service, ROOMY)
+    first, second = tuple(names)
+    told(service, day, clock(), pin(second, "van-2", after=first), at=10)
+    for at in (20, 30):
+        stops = tour(plan_of(service, day), "van-2")
+        assert stops.index(first) < stops.index(second)
+        told(service, day, order(f"G{at}", 1, 1), at=at)
+
+
+@pytest.mark.slow
+def test_who_is_on_the_way_stays_with_its_vehicle(service: httpx.Client) -> None:
+    day = begun(service)
+    vehicle = served_by(plan_of(service, day))["A"]
+    other = next(van for van in VANS if van != vehicle)
+    told(service, day, clock(), {"kind": "vehicle.departed", "vehicle": vehicle, "at": 110},
+         pin("A", other), at=120)
+    assert served_by(plan_of(service, day))["A"] == vehicle
+
+
+def test_of_pins_in_a_circle_the_last_counts() -> None:
+    begin = Begun({"customers": [{"id": name} for name in "ABC"]}, DayTerms(2, 600, 0, ""))
+    events = [LoggedEvent(number, "", str(number), "order.pinned", number, "van-1", None, None,
+                          None, f'{{"order": "{behind}", "after": "{before}"}}')
+              for number, (before, behind) in enumerate([("A", "B"), ("B", "C"), ("C", "A")])]
+    assert fold(begin, events, 0).pins == {
+        "B": Pin("van-1"), "C": Pin("van-1", "B"), "A": Pin("van-1", "C")}
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(("stated", "path"), [
+    (pin("Z", "van-1"), "$[0].order"), (pin("A", "van-9"), "$[0].vehicle"),
+    (pin("A", "van-1/drone-1"), "$[0].vehicle"), (pin("A", "van-1", after="Z"), "$[0].after"),
+    (pin("A", "van-1", after="A"), "$[0]"), ({"kind": "order.pinned", "order": "A"}, "$[0]")])
+def test_pins_of_what_is_not_there_are_refused(service: httpx.Client, stated: dict[str, Any],
+                                               path: str) -> None:
+    day = begun(service)
+    reply = service.post(f"/days/{day}/events", json=[{"event_id": "e", "at": 1} | stated])
+    assert (reply.status_code, reply.json()["errors"][0]["path"]) == (422, path), reply.text
