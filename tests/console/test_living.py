@@ -1,7 +1,7 @@
 """A day as it happens, in the console."""
 
 import re
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 
 import httpx
 import pytest
@@ -16,9 +16,10 @@ pytestmark = pytest.mark.slow
 
 
 @pytest.fixture
-def client(service: str) -> httpx.Client:
+def client(service: str) -> Iterator[httpx.Client]:
     """Return who tells the service of days."""
-    return httpx.Client(base_url=service, trust_env=False, timeout=PATIENCE)
+    with httpx.Client(base_url=service, trust_env=False, timeout=PATIENCE) as teller:
+        yield teller
 
 
 def test_day_is_begun_with_the_plan_and_opened_again(page: Page) -> None:
@@ -39,7 +40,7 @@ def test_what_changes_is_shown_and_orders_in_doubt_are_asked(
         client: httpx.Client, service: str, open_page: Callable[..., Page]) -> None:
     day = begun(client)
     page = open_page(f"{service}/#day={day}")
-    expect(page.get_by_role("timer")).to_be_visible()
+    opened(page)
     expect(page.locator("[data-list=changed]")).to_have_count(0)
     told(client, day, order("G", 1, 1), at=10)
     expect(page.locator("[data-list=changed]")).to_contain_text("G")
@@ -80,7 +81,7 @@ def test_what_is_not_told_yet_is_undone_and_told_with_one_click(
         client: httpx.Client, service: str, open_page: Callable[..., Page]) -> None:
     day = begun(client)
     page = open_page(f"{service}/#day={day}")
-    expect(page.get_by_role("timer")).to_be_visible()
+    opened(page)
     cancel(page, "F")
     tell = page.locator("#tell-edits")
     expect(tell).to_have_text(re.compile("Tell 1 change"))
@@ -98,7 +99,7 @@ def test_wall_shows_the_day_without_a_panel_to_work_in(
         client: httpx.Client, service: str, open_page: Callable[..., Page]) -> None:
     day = begun(client)
     page = open_page(f"{service}/#day={day}&wall")
-    expect(page.get_by_role("timer")).to_be_visible()
+    opened(page)
     expect(page.locator(".rail")).to_be_hidden()
     told(client, day, order("G", 1, 1), at=10)
     expect(page.locator("[data-list=changed]")).to_contain_text("G")
@@ -111,13 +112,19 @@ def test_what_cannot_be_planned_is_said_and_the_plan_before_stays(
         client: httpx.Client, service: str, open_page: Callable[..., Page]) -> None:
     day = begun(client)
     page = open_page(f"{service}/#day={day}")
-    expect(page.get_by_role("timer")).to_be_visible()
+    opened(page)
     # No event that is accepted does so: the service says it in its place.
     page.route(f"**/days/{day}", lambda route: route.fulfill(json={
         **client.get(f"/days/{day}").json(), "failure": "It can't be planned."}))
     client.post(f"/days/{day}/events", json=[{"event_id": "later", "kind": "clock", "at": 10}])
     expect(page.get_by_role("alert")).to_contain_text("the plan before stays")
     expect(page.locator("#total-cost")).to_be_visible()
+
+
+def opened(page: Page) -> None:
+    """Wait for the day's plan: what is told before it is there changes nothing that was seen."""
+    expect(page.get_by_role("timer")).to_be_visible()
+    expect(page.get_by_role("button", name=re.compile("served"))).to_be_visible()
 
 
 def cancel(page: Page, name: str) -> None:
