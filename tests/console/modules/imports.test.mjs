@@ -7,6 +7,15 @@ import { test } from 'node:test';
 const APP = new URL('../../../app/', import.meta.url);
 const ALL = [/export (?:async )?(?:function\*?|const|class|let) (\w+)/g, /export \{([^}]*)\}/g, /export (?:const|let) \{([^}]*)\}/g];
 
+/** Where files of other pages lie that pages ask for, by how they are served. */
+const SERVED = { console: 'console/static/', drive: 'records/dispatches/static/' };
+
+/** Return where a module is that one in a folder asks for. */
+function placeOf(path, from) {
+  const [, page, rest] = /^(?:\.\.\/)+(console|drive)\/(.+)$/.exec(path) ?? [];
+  return page ? new URL(SERVED[page] + rest, APP) : new URL(path, from);
+}
+
 function exported(source) {
   const names = ALL.flatMap((pattern) => [...source.matchAll(pattern)].flatMap(([, list]) => list.split(',')));
   return new Set(names.map((name) => name.trim().split(/ as |: /).pop()));
@@ -20,9 +29,9 @@ for (const page of ['console/static/js/', 'records/dispatches/static/js/', 'reco
       const source = readFileSync(new URL(file, folder), 'utf8');
       const imports = [...source.matchAll(/import \{([^}]*)\} from '(\.[^']*\/[^']*|\.\/[^']*)'/g)];
       return imports
-        .filter(([, , path]) => !path.includes('vendor/') && !path.includes('/console/'))
+        .filter(([, , path]) => !path.includes('vendor/'))
         .flatMap(([, names, path]) => {
-          const known = exported(readFileSync(new URL(path, new URL(file, folder)), 'utf8'));
+          const known = exported(readFileSync(placeOf(path, new URL(file, folder)), 'utf8'));
           const asked = names.split(',').map((name) => name.trim().split(' as ')[0]);
           return asked.filter((name) => name && !known.has(name)).map((name) => `${file}: ${name}`);
         });

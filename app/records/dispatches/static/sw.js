@@ -9,6 +9,7 @@ const FILES = [
   'js/clocks.js',
   'js/days.js',
   'js/flights.js',
+  'js/language-choice.js',
   'js/link.js',
   'js/main.js',
   'js/navigators.js',

@@ -1,7 +1,7 @@
 /** A customer's page: when who comes, asked again each half minute. */
 
-import { LANGUAGES } from '../../console/js/language.js';
 import { html, render } from '../../console/vendor/htm-3.1.1/standalone.module.js';
+import { LanguageChoice } from '../../drive/js/language-choice.js';
 import { choose, language, t } from './texts.js';
 
 const REFRESH_MS = 30000;
@@ -63,16 +63,9 @@ function Visit({ visit }) {
     )}</ul>`}</div></section>`;
 }
 
-function LanguageChoice() {
-  const speak = async (event) => {
-    await choose(event.target.value);
-    draw();
-  };
-  return html`<label>${t('visit.language')} <select value=${language()} onChange=${speak}>
-    ${Object.entries(LANGUAGES).map(
-      ([name, label]) => html`<option key=${name} value=${name} lang=${name}
-        selected=${name === language()}>${label}</option>`,
-    )}</select></label>`;
+async function speak(name) {
+  await choose(name);
+  draw();
 }
 
 function draw() {
@@ -84,7 +77,8 @@ function draw() {
       <p role="status">${failure ? t(`failure.${failure}`) : visit && t('visit.current', { at: current })}</p>
     </header>
     ${visit && html`<${Visit} visit=${visit} />`}
-    <footer><${LanguageChoice} /></footer>`, root);
+    <footer><${LanguageChoice} label=${t('visit.language')} language=${language()}
+      onChoose=${speak} /></footer>`, root);
 }
 
 await refresh();

@@ -3,6 +3,7 @@
 import { html, useEffect, useRef, useState } from '../../console/vendor/htm-3.1.1/standalone.module.js';
 import { clock, windowText } from './clocks.js';
 import { chooseFormat, chosenFormat, FORMATS } from './flights.js';
+import { LanguageChoice } from './language-choice.js';
 import {
   chooseNavigator,
   chosenNavigator,
@@ -28,7 +29,6 @@ import {
   VEHICLE,
 } from './steps.js';
 import { choose, language, t } from './texts.js';
-import { LANGUAGES } from '../../console/js/language.js';
 
 /** A page that has nothing but something to say. */
 export function Message({ text }) {
@@ -77,7 +77,11 @@ export function Day({ day, waiting, isReached, failure, link, onTell, onProve, o
         (name) => html`<option key=${name} value=${name}
           selected=${name === navigator_}>${navigatorName(name)}</option>`,
       )}</select></label>
-    <${LanguageChoice} onLanguage=${onLanguage} /></footer>`;
+    <${LanguageChoice} label=${t('page.language')} language=${language()}
+      onChoose=${async (name) => {
+        await choose(name);
+        onLanguage();
+      }} /></footer>`;
 }
 
 /** What is new since the driver looked, and what was taken away. */
@@ -109,18 +113,6 @@ function Flights({ onFlights }) {
       setFailure(await onFlights(format))}>${t('flights.save')}</button>
     <p class="hint">${t('flights.facts')}</p>
     ${failure && html`<p role="alert" class="unsent">${failure}</p>`}`;
-}
-
-function LanguageChoice({ onLanguage }) {
-  const speak = async (event) => {
-    await choose(event.target.value);
-    onLanguage();
-  };
-  return html`<label>${t('page.language')} <select value=${language()} onChange=${speak}>
-    ${Object.entries(LANGUAGES).map(
-      ([name, label]) => html`<option key=${name} value=${name} lang=${name}
-        selected=${name === language()}>${label}</option>`,
-    )}</select></label>`;
 }
 
 /** What a driver says whose vehicle can't go on, asked once more before it is told. */
