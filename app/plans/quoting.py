@@ -45,12 +45,12 @@ def answer_quote(body: ReceivedBody, bounds: Bounds,
     judged = task.judge_routes(solution)
     require_readable(task.setting.judge(task.judged_problem, solution, judged))
     bench = bench_of(task, request.asked, solution, judged)
-    node = bench.node if bench.shipment is None else bench.shipment.delivery
-    customers = [_within(bench.problem.customer_at(node), slot) for slot in request.slots]
+    customers = [_within(bench.problem.customer_at(bench.last), slot) for slot in request.slots]
     view = view_of(bench) if task.replanning is None else seen(task.replanning, bench)
     future: list[float | None] = [None] * len(customers)
     if task.waves is not None and bench.shipment is None:
-        future = task.waves.future_costs(task.judged_problem, task.replanning, node, customers)
+        future = task.waves.future_costs(task.judged_problem, task.replanning, bench.node,
+                                         customers)
     slots = [_quoted(bench, slot, best, more) for slot, best, more in zip(
         request.slots, find_slots(bench, customers, view), future, strict=True)]
     costs = [(each["cost"], index) for index, each in enumerate(slots) if each["feasible"]]

@@ -18,7 +18,9 @@ from model.judge.retiming import read_route, time_route
 from model.judge.timing import RouteDecision
 from model.planner import Listener, PlanCheckError, Planner, PlanOptions, PlanResult
 from model.problem import Problem
+from model.problem.altered import with_customers
 from model.replanning.amend import repaired_route
+from model.replanning.handover import complete
 from model.replanning.refusing import SettledPartError
 from model.replanning.replan import Replanning, Terms
 from model.solution import Route, Solution
@@ -141,12 +143,10 @@ class RiskSearch:
 
     def _ending(self, sooner: Mapping[int, int]) -> Problem:
         """Return the problem with windows that end sooner, but not before they begin."""
-        first, customers = self.stated.num_depots, list(self.stated.customers)
-        for node, by in sooner.items():
-            each = customers[node - first]
-            customers[node - first] = replace(
-                each, latest=max(each.openings[-1], each.latest - by))
-        return replace(self.stated, customers=tuple(customers))
+        ending = {node: (self.stated.customer_at(node), by) for node, by in sooner.items()}
+        return with_customers(self.stated, {
+            node: replace(each, latest=max(each.openings[-1], each.latest - by))
+            for node, (each, by) in ending.items()})
 
 
 def further(planner: Planner, received_at: float, terms: Terms | None) -> Further:
@@ -163,11 +163,7 @@ def further(planner: Planner, received_at: float, terms: Terms | None) -> Furthe
 
 def without_late(problem: Problem, plan: Solution) -> Solution:
     """Return a plan of another problem without those for whom it breaks rules there."""
-    routes = list(_mended(problem, plan))
-    served = {node for route in routes for trip in route.trips for node in (
-        *(stop.node for stop in trip.customer_stops),
-        *(node for sortie in trip.sorties for node in sortie.nodes))}
-    return Solution(tuple(routes), problem.left_out(served))
+    return complete(problem, tuple(_mended(problem, plan)))
 
 
 def _mended(problem: Problem, plan: Solution) -> Iterator[Route]:

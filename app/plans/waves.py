@@ -15,6 +15,7 @@ from app.requests.conversion.units import money, thousandths
 from app.requests.forecast_validation import orders_to_come
 from app.maps.roads.roads import Roads
 from app.schemas.forecast import ComingInput
+from model.judge.places import halts
 from model.judge.rules import seconds
 from model.planner import Listener, Planner, PlanOptions, PlanResult
 from model.problem import Customer, Problem, VehicleType
@@ -140,9 +141,8 @@ class Waves:
     def replies(self, problem: Problem, plan: Solution, now: int) -> list[Data]:
         """Return what a reply says of who leaves and who waits, by the plan itself."""
         until = min(self._departures(now)[1:2], default=math.inf)
-        begins = {halt: trip.stops[0].departure for route in plan.routes for trip in route.trips
-                  for halt in (*(stop.node for stop in trip.customer_stops),
-                               *(node for sortie in trip.sorties for node in sortie.nodes))}
+        begins = {halt.node: trip.stops[0].departure for route in plan.routes
+                  for trip in route.trips for halt in halts(trip)}
         return [_reply(problem, each, begins[each.node] < until)
                 for each in self.outlooks if each.node in begins]
 
@@ -170,13 +170,11 @@ class Waves:
         left = replanning.left
         if left is None:
             return []
+        found = [(left.kinds[here], left.problem.vehicle_types[here]) for here in left.beginning]
         return [(whole, replace(
             kinds[whole], count=kind.count, numbers=(), max_trips=kind.max_trips,
             earliest=max(kind.earliest, kind.busy_until), fixed_cost=kind.fixed_cost))
-            for here, (whole, kind) in enumerate(zip(left.kinds, left.problem.vehicle_types,
-                                                     strict=True))
-            if not (here in left.workers and left.workers[here].is_under_way)
-            and max(kind.earliest, kind.busy_until) <= kinds[whole].latest]
+            for whole, kind in found if max(kind.earliest, kind.busy_until) <= kinds[whole].latest]
 
     def _with(self, kinds: Sequence[tuple[int, VehicleType]]) -> Problem:
         """Return the problem with the types that there are, and their rows of its tables."""

@@ -19,6 +19,7 @@ from model.judge.places import Means, Place, halts
 from model.judge.retiming import read_route
 from model.judge.timing import RouteDecision
 from model.problem import Customer, Problem
+from model.problem.altered import with_customers
 from model.solution import Stop, Visit
 
 Kind = Literal["place", "by", "window", "vehicle", "unassigned"]
@@ -217,7 +218,7 @@ def _windows_of(bench: Bench, node: int, until: float) -> tuple[list[Alternative
     for window in range(len(customer.openings) if customer.gaps else 0):
         if window == now:
             continue
-        problem = with_customer(bench.problem, node, in_window(customer, window))
+        problem = with_customers(bench.problem, {node: in_window(customer, window)})
         screened = share_over(SCREENING_SHARE, until)
         guesses = sorted([guess for some in bench.guesses(problem, screened).values()
                           for guess in some], key=lambda guess: guess.rank)
@@ -240,10 +241,3 @@ def in_window(customer: Customer, window: int) -> Customer:
         return replace(customer, earliest=customer.openings[window], gaps=())
     return replace(customer, earliest=customer.openings[window], latest=closes[window], gaps=(),
                    late_cost_per_hour=None)
-
-
-def with_customer(problem: Problem, node: int, customer: Customer) -> Problem:
-    """Return a problem in which a customer is another."""
-    index = node - problem.num_depots
-    return replace(problem, customers=(*problem.customers[:index], customer,
-                                       *problem.customers[index + 1:]))

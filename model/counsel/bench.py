@@ -144,6 +144,11 @@ class Bench:
             judged = {**judged, index: timed.judged}
         return Trial(None, plan, self.setting.judge(self.problem, plan, judged)), judged
 
+    @property
+    def last(self) -> int:
+        """The customer's node; of a shipment that of its delivery."""
+        return self.node if self.shipment is None else self.shipment.delivery
+
     def under(self, problem: Problem) -> "Bench":
         """Return what tries the customer, whom the plan leaves out, under other rules of his."""
         other = copy(self)

@@ -11,7 +11,7 @@ from dataclasses import dataclass, replace
 from itertools import takewhile
 from typing import Literal, NamedTuple
 
-from model.counsel.alternatives import Findings, halt_of, here_of, with_customer
+from model.counsel.alternatives import Findings, halt_of, here_of
 from model.counsel.bench import Bench, Trial
 from model.counsel.flight_limits import hour_limits, hub_limits
 from model.counsel.lifting import lifted
@@ -28,6 +28,7 @@ from model.judge.rules import airborne_duration, farthest
 from model.problem import (
     MAX_POWER, MAX_QUANTITY, MICROJOULES_PER_WH, UNLIMITED, DroneType, Energy, Problem, VehicleType,
 )
+from model.problem.altered import with_customers
 from model.problem.limits import LIMITS
 from model.solution import Sortie, Trip
 
@@ -180,26 +181,26 @@ def _customer_limits(bench: Bench, node: int) -> Iterator[Limit]:
         slack = None if halt is None else max(0, customer.latest - halt.ready)
         changed = replace(customer, latest=min(customer.latest + MS_PER_MINUTE, UNLIMITED))
         yield Limit(f"{window}{last}.latest", "customer", None, "minute", _in_minutes(slack),
-                    with_customer(problem, node, changed))
+                    with_customers(problem, {node: changed}))
     if customer.earliest > 0:
         slack = None
         if halt is not None and opening(customer, halt.ready) == customer.earliest:
             slack = max(0, halt.ready - customer.earliest)
         changed = replace(customer, earliest=max(0, customer.earliest - MS_PER_MINUTE))
         yield Limit(f"{window}{first}.earliest", "customer", None, "minute", _in_minutes(slack),
-                    with_customer(problem, node, changed))
+                    with_customers(problem, {node: changed}))
     trip = _trip_of(bench)
     used = {}
     if trip is not None and halt is not None and customer.max_time_aboard is not None:
         excess = excess_aboard(problem, _kind_of(bench), trip, halt)
         used["time_aboard"] = min(customer.max_time_aboard + excess, customer.max_time_aboard)
     for field, unit, left, looser in loosened(customer, used, "customer"):
-        yield Limit(field, "customer", None, unit, left, with_customer(problem, node, looser))
+        yield Limit(field, "customer", None, unit, left, with_customers(problem, {node: looser}))
     if customer.release_time > 0:
         slack = None if trip is None else trip.stops[0].arrival - customer.release_time
         changed = replace(customer, release_time=max(0, customer.release_time - MS_PER_MINUTE))
         yield Limit("release_time", "customer", None, "minute", _in_minutes(slack),
-                    with_customer(problem, node, changed))
+                    with_customers(problem, {node: changed}))
     if node == bench.nodes[-1]:
         kind = None if trip is None else _kind_of(bench)
         for field, left, longer in between_limits(problem, node, kind, trip):

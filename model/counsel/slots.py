@@ -8,15 +8,14 @@ from collections import Counter
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 
-import numpy as np
-
 from model.counsel.alternatives import try_places
 from model.counsel.bench import MOST_LEGS, Bench, Drafted
 from model.counsel.fitting import Fit, find_fits, new_violations
 from model.counsel.priced import Offer, is_seen_by_search, slot_offers
-from model.judge.past import EVERYTHING_OPEN, Vehicle
+from model.judge.past import Vehicle
 from model.judge.places import Place
 from model.problem import MM_PER_KM, Customer, Problem
+from model.problem.altered import with_copies, with_customers
 from model.solution import Solution
 
 TRIED = 3
@@ -38,10 +37,8 @@ class SearchedPlan:
     whole: Callable[[Place], Place | None]  # a place of the plan as a whole; None: there is none
 
 
-def view_of(bench: Bench) -> SearchedPlan | None:
-    """Return how the search sees a plan of which nothing has happened; None: something has."""
-    if bench.setting.past != EVERYTHING_OPEN:
-        return None
+def view_of(bench: Bench) -> SearchedPlan:
+    """Return how the search sees a plan of which nothing has happened."""
     return SearchedPlan(bench.problem, bench.left_out.solution, bench.node,
                 range(len(bench.problem.vehicle_types)), lambda place: place)
 
@@ -59,8 +56,7 @@ def find_slots(bench: Bench, slots: Sequence[Customer],
     view
         The plan as the search sees it; None: it isn't asked.
     """
-    node = bench.node if bench.shipment is None else bench.shipment.delivery
-    benches = [bench.under(_with(bench.problem, node, each)) for each in slots]
+    benches = [bench.under(with_customers(bench.problem, {bench.last: slot})) for slot in slots]
     if view is None or not _is_seen(bench, view):
         yield from [next(iter(find_fits(each, 1).places), None) for each in benches]
         return
@@ -76,26 +72,11 @@ def _is_seen(bench: Bench, view: SearchedPlan) -> bool:
             and view.problem.num_nodes**2 * len(problem.travel) <= MOST_LEGS)
 
 
-def _with(problem: Problem, node: int, customer: Customer) -> Problem:
-    index = node - problem.num_depots
-    return replace(problem, customers=(*problem.customers[:index], customer,
-                                       *problem.customers[index + 1:]))
-
-
 def _offers(view: SearchedPlan, slots: Sequence[Customer]) -> list[list[Offer]]:
     """Return the places of each slot on routes, the cheapest first, by one search for all."""
     problem, own = view.problem, view.node
-    index = own - problem.num_depots
     nodes = [own, *range(problem.num_nodes, problem.num_nodes + len(slots) - 1)]
-    at = np.array([*range(problem.num_nodes), *[own] * (len(slots) - 1)])
-    columns = at[problem.num_depots:] - problem.num_depots
-    customers = [*problem.customers]
-    customers[index] = slots[0]
-    many = replace(
-        problem, customers=(*customers, *slots[1:]), coordinates=problem.coordinates[at],
-        travel=tuple([each.among(at) for each in problem.travel]),
-        may_serve=None if problem.may_serve is None else problem.may_serve[:, columns],
-        vehicle_costs=None if problem.vehicle_costs is None else problem.vehicle_costs[:, columns])
+    many = with_copies(with_customers(problem, {own: slots[0]}), own, slots[1:])
     solution = replace(view.solution, unassigned=(*view.solution.unassigned, *nodes[1:]))
     return slot_offers(many, solution, nodes)
 

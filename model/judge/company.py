@@ -7,6 +7,7 @@ from model.judge.lags import halts_of, starts_across, starts_of
 from model.judge.past import Vehicle
 from model.judge.rules import TimedTrip, Violation, seconds
 from model.problem import MAX_QUANTITY, SINCE_PLAN_START, UNLIMITED, Lag, Problem, Relation
+from model.problem.altered import with_customers
 from model.solution import Route, Solution
 
 
@@ -138,9 +139,7 @@ def who_waits(problem: Problem, solution: Solution, node: int) -> tuple[str, Pro
                   if soonest <= closes and opens <= latest])
     bound = replace(customer, earliest=soonest, latest=latest, gaps=gaps,
                     late_cost_per_hour=None, late_cost=0.0)
-    index = node - problem.num_depots
-    return names, replace(problem, customers=(
-        *problem.customers[:index], bound, *problem.customers[index + 1:]))
+    return names, with_customers(problem, {node: bound})
 
 
 def kept_off(problem: Problem, solution: Solution, kind: int, node: int) -> dict[Vehicle, str]:

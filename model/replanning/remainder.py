@@ -13,6 +13,7 @@ from model.judge.freshness import first_departure
 from model.judge.hubs import batteries_taken
 from model.judge.past import Past, Vehicle
 from model.problem import BoolArray, Customer, Depot, FloatArray, Problem, VehicleType
+from model.problem.altered import with_customers
 from model.replanning.amend import customers_of
 from model.replanning.company import company_table, relations_left
 from model.replanning.kept import Kept
@@ -44,6 +45,12 @@ class Remainder:
         first = self.problem.num_depots
         return {node: index for index, node in enumerate(self.nodes[first:], first)}
 
+    @property
+    def beginning(self) -> list[int]:
+        """Types that may begin trips: all but those that are the rest of one."""
+        return [kind for kind in range(len(self.kinds))
+                if not (kind in self.workers and self.workers[kind].is_under_way)]
+
     def holding(self, held: Mapping[int, int]) -> "Remainder":
         """Return what is left where some of the whole's customers come no sooner to the depot."""
         if not held:
@@ -69,8 +76,7 @@ class Remainder:
         Those that may serve a customer, who is at a node there, come first.
         """
         index, table = self.nodes.index(node) - self.problem.num_depots, self.problem.may_serve
-        found = [here for here, whole in enumerate(self.kinds) if whole == kind
-                 and not (here in self.workers and self.workers[here].is_under_way)]
+        found = [here for here in self.beginning if self.kinds[here] == kind]
         return found if table is None else sorted(found, key=lambda here: not table[here, index])
 
     def drones_of(self, kind: int) -> Sequence[int]:
@@ -277,11 +283,8 @@ def _served_by(customer: Customer, latest: int) -> Customer | None:
 
 def held_back(problem: Problem, held: Mapping[int, int]) -> Problem:
     """Return a problem in which parcels of some customers, by node, are at the depot later."""
-    customers = list(problem.customers)
-    for node, until in held.items():
-        index = node - problem.num_depots
-        customers[index] = _back(customers[index], until)
-    return replace(problem, customers=tuple(customers))
+    return with_customers(problem, {node: _back(problem.customer_at(node), until)
+                                    for node, until in held.items()})
 
 
 def _back(customer: Customer, returned: int) -> Customer:

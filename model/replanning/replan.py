@@ -17,6 +17,7 @@ from model.planner import (
     ALONE, Elapsed, Listener, PlanCheckError, Planner, PlanOptions, PlanResult,
 )
 from model.problem import Problem
+from model.problem.altered import with_customers
 from model.replanning.driven_on import as_it_stands, driven_on, going_through, kept_by
 from model.replanning.handover import hand_over, served_by, settled
 from model.replanning.kept import Kept, kept_routes
@@ -301,11 +302,8 @@ def _has_flights(past: Past) -> bool:
 def _released(problem: Problem, past: Past) -> Problem:
     """Return the problem in which every parcel is there that was loaded."""
     loaded = {node for trips in past.trips.values() for trip in trips for node in trip.aboard}
-    customers = list(problem.customers)
-    for node in problem.all_places(loaded):
-        index = node - problem.num_depots
-        customers[index] = replace(customers[index], release_time=0)
-    return replace(problem, customers=tuple(customers))
+    return with_customers(problem, {node: replace(problem.customer_at(node), release_time=0)
+                                    for node in problem.all_places(loaded)})
 
 
 def _stranded(problem: Problem, kept: Mapping[Vehicle, Kept],
@@ -317,5 +315,3 @@ def _stranded(problem: Problem, kept: Mapping[Vehicle, Kept],
     served = {vehicle: route.served for vehicle, route in kept.items() if vehicle in loaded}
     return {node: vehicle for vehicle, nodes in loaded.items()
             for node in sorted(nodes - served.get(vehicle, set()))}
-
-

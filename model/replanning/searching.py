@@ -37,7 +37,7 @@ class Bridge:
 
 
 def begin(left: Remainder, begun: Solution, options: PlanOptions,
-           should_stop: Callable[[], bool], has_orders: bool) -> Completed:
+          should_stop: Callable[[], bool], has_orders: bool) -> Completed:
     """Return what is left of the plan given; if no search follows, with those whom it lacks.
 
     They are inserted where that costs least, as a search does at its beginning. Where some keep
@@ -107,8 +107,9 @@ class SearchOfRest:
             Told of each plan; returns what it costs as a whole, infinite if it is illegal.
         """
         result = planner.plan(self.problem, self.options, received_at, listener, first)
-        cost(result.solution)
-        if self.takes_back is not None:
+        if self.takes_back is None:
+            cost(result.solution)
+        else:
             take_back_changes(self.left.problem, handed, result.solution, cost,
                               received_at + self.takes_back)
         return result

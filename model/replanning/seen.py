@@ -40,10 +40,8 @@ def seen(replanning: Replanning, bench: Bench) -> SearchedPlan | None:
         return None if vehicle is None else place._replace(
             vehicle=vehicle, trip=place.trip + _begun(kept, vehicle))
 
-    kinds = [kind for kind in range(len(left.kinds))
-             if not (kind in left.workers and left.workers[kind].is_under_way)]
     return SearchedPlan(left.problem, hand_over(replanning.problem, plan, kept, left),
-                left.numbers[bench.node], kinds, whole)
+                        left.numbers[bench.node], left.beginning, whole)
 
 
 def _begun(kept: dict[Vehicle, Kept], vehicle: Vehicle) -> int:

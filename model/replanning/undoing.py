@@ -8,6 +8,7 @@ whom he was before, and beside those nearest.
 import time
 from collections.abc import Callable, Collection, Iterator
 from dataclasses import replace
+
 from model.judge.ends import with_ends
 from model.judge.past import EVERYTHING_OPEN
 from model.judge.retiming import read_route, time_route

@@ -28,6 +28,7 @@ def message_of(engine: Engine, name: str, base: str | None = None) -> Message | 
               and event.kind == kind and event.id.startswith(f"{number}:")]
     if url is None or not events:
         return None
+
     def told(event: LoggedEvent) -> Data:
         reply = logged(row, event).model_dump(mode="json", exclude_none=True)
         if base is not None and "order" in event.about:

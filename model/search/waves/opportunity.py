@@ -8,6 +8,7 @@ from dataclasses import replace
 import numpy as np
 
 from model.problem import Customer, FloatArray
+from model.problem.altered import with_copies
 from model.search.waves.decide import WaveConfig, plan_future
 from model.search.waves.detours import detours
 from model.search.waves.future import Coming, Forecast, Wave, future_of
@@ -52,15 +53,8 @@ def _added(wave: Wave, node: int, slots: Sequence[Customer], coming: Sequence[Co
     left = config.futures + 1 - number
     seconds = (due - time.perf_counter()) / left if math.isfinite(due) else math.inf
     plan = plan_future(future.problem, config, config.turns, number, seconds)
-    problem, first = wave.problem, wave.problem.num_nodes
-    at = np.array([*range(first), *[node] * len(slots)])
-    columns = at[problem.num_depots:] - problem.num_depots
-    many = replace(
-        problem, customers=(*problem.customers, *slots), coordinates=problem.coordinates[at],
-        travel=tuple([each.among(at) for each in problem.travel]),
-        may_serve=None if problem.may_serve is None else problem.may_serve[:, columns],
-        vehicle_costs=None if problem.vehicle_costs is None else problem.vehicle_costs[:, columns])
-    asked = future_of(replace(wave, problem=many, open=(
+    first = wave.problem.num_nodes
+    asked = future_of(replace(wave, problem=with_copies(wave.problem, node, slots), open=(
         *wave.open, *range(first, first + len(slots)))), coming)
     behind = future.open.stop
     whole: Solution = renumbered(plan, lambda own: own if own < behind else own + len(slots))
