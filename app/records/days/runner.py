@@ -24,6 +24,7 @@ from app.records.days.news import names_of, news_of
 from app.records.days.planning import asked, too_late
 from app.records.days.remedies import Quote, remedy_of
 from app.records.days.rows import Begun, DayRow
+from app.records.days.sighting import are_in_time
 from app.records.days.spreads import observed
 from app.records.days.store import DayStore
 from app.records.dispatches.instants import PlanStart, instant, milliseconds
@@ -145,12 +146,12 @@ class DayRunner:
             # What others don't answer now they may later: the day is taken up again.
             if not self._may_do_later(day, error):
                 details = "; ".join(each.message for each in error.errors)
-                self._store.fail(day, self._by, details or str(error))
+                self._store.keep_plan(day, self._by, details or str(error))
         except SQLAlchemyError as error:
             logger.warning("a day's plan can't be kept: %s", type(error).__name__)
         except Exception:
             logger.exception("a day can't be planned")
-            self._store.fail(day, self._by, "The plan could not be made.")
+            self._store.keep_plan(day, self._by, "The plan could not be made.")
         finally:
             self._free.release()
             self._told.set()
@@ -172,6 +173,9 @@ class DayRunner:
         told = fold(begun, log, day.plan_start)
         content = self._store.plan(day.id)
         before = None if content is None else parse_plan(content)
+        if before and not day.failure and are_in_time(begun, told, before, log, day.planned):
+            self._store.keep_plan(day, self._by)
+            return
         now = max(0.0, day.seconds(now_of(told)))
         wanted, reply = self._replied(day, begun, told, before, now)
         if self._stopping.is_set():

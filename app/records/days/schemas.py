@@ -90,6 +90,7 @@ class VehicleReply(_Reply):
     done: int = Field(0, description="Steps that were told to be done.")
     failed: int = Field(0, description="Steps that were told to have failed.")
     position: tuple[float, float] | None = Field(None, description="Where it was told to be.")
+    position_at: float | None = Field(None, description="When it was there.")
     broken: bool = Field(False, description="Whether it has broken down.")
 
 

@@ -380,9 +380,10 @@ def _vehicles(told: ToldDay, plan: PlanInput, row: DayRow) -> list[VehicleReply]
     listed = []
     for name in names:
         done, failed = told.count(name)
-        at = told.told_at.get(name)
+        at, seen = told.told_at.get(name), told.sighted.get(name)
         listed.append(VehicleReply(
             vehicle=name, told_at=None if at is None else row.seconds(at), done=done,
-            failed=failed, position=None if name not in told.sighted
-            else tuple(told.sighted[name].about["location"]), broken=name in told.out))
+            failed=failed, position=None if seen is None else tuple(seen.about["location"]),
+            position_at=None if seen is None else row.seconds(seen.time),
+            broken=name in told.out))
     return listed

@@ -5,10 +5,10 @@ takes as large a share of its planned duration.
 """
 
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 
-from app.records.days.fold import Data, ToldDay
-from app.records.days.rows import Begun
+from app.records.days.fold import CLIENTS, Data, ToldDay
+from app.records.days.rows import Begun, LoggedEvent
 from app.records.dispatches.standing import Standing, of_steps
 from app.records.dispatches.steps import GEOGRAPHIC, stop_ids
 from app.schemas.plan import PlanInput, RouteInput, StopInput
@@ -40,6 +40,16 @@ def late_by_position(begun: Begun, told: ToldDay, plan: PlanInput,
             if by > LATE:
                 late[route.vehicle] = by
     return late
+
+
+def are_in_time(begun: Begun, told: ToldDay, plan: PlanInput, log: Iterable[LoggedEvent],
+                seen: int) -> bool:
+    """Tell whether all that was told since a plan is where vehicles are, none later than planned.
+
+    Phones tell it twice a minute: a plan for each would be much ado about nothing.
+    """
+    kinds = {event.kind for event in log if event.number > seen and event.kind in CLIENTS}
+    return kinds == {"vehicle.position"} and not late_by_position(begun, told, plan, seen)
 
 
 def _late(leg: Leg | None, here: Place, at: float, places: Mapping[str, Place],

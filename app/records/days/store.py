@@ -154,8 +154,8 @@ class DayStore:
                 ends_at=day.ends_at, expires_at=day.expires_at))
         return True
 
-    def fail(self, day: DayRow, by: str, why: str) -> None:
-        """Note why a day can't be planned as it stands. In place."""
+    def keep_plan(self, day: DayRow, by: str, why: str | None = None) -> None:
+        """Leave the plan as it is: it counts with what was told, or `why` not. In place."""
         with self._engine.begin() as connection:
             if _held(connection, day.id, by) is not None:
                 connection.execute(update(DAYS).where(DAYS.c.id == day.id).values(

@@ -1,5 +1,6 @@
 """A vehicle's day as its driver sees it, and what the driver tells; waits for the database."""
 
+from collections.abc import Sequence
 from datetime import datetime, timedelta
 from typing import Any
 
@@ -13,7 +14,7 @@ from app.records.dispatches.links import find_link
 from app.records.dispatches.going_on import GROUNDING
 from app.records.dispatches.rows import PLAN_SEEN, DispatchRow, ToldRow, VehicleLinkRow
 from app.records.dispatches.schemas import (
-    BREAKDOWN, SEEN, DriverDay, EventInput, EventsReply, EventsRequest, StepReply,
+    BREAKDOWN, POSITION, SEEN, DriverDay, EventInput, EventsReply, EventsRequest, StepReply,
 )
 from app.records.dispatches.standing import Standing, standing_of, standing_reply
 from app.records.dispatches.store import DispatchStore
@@ -46,6 +47,7 @@ def read_day(store: DispatchStore, token: str) -> DriverDay:
         plan_start=instant(dispatch.plan_start, dispatch.zone_offset),
         ends_at=instant(dispatch.ends_at, dispatch.zone_offset), steps=steps,
         flights=len(flights), flies=any(each.drone == link.vehicle for each in flights),
+        asks_position=_asks_position(dispatch, steps),
         standing=standing_reply(_standing(store, link, dispatch), steps))
 
 
@@ -95,10 +97,16 @@ def tell(store: DispatchStore, token: str, request: EventsRequest) -> EventsRepl
     wrong_by = clock_error(request.now, now)
     steps = store.steps(link.id)
     known = {step.id: step for step in steps}
-    store.add_events(link, [_row(event, link.vehicle, known.get(event.step), wrong_by, now)
-                            for event in request.events], _refuse_more)
+    store.add_events(link, [
+        _row(event, link.vehicle, known.get(event.step), wrong_by, now) for event in request.events
+        if event.step != POSITION or _asks_position(dispatch, steps)], _refuse_more)
     return EventsReply(accepted=[event.id for event in request.events],
                        standing=standing_reply(_standing(store, link, dispatch), steps))
+
+
+def _asks_position(dispatch: DispatchRow, steps: Sequence[StepReply]) -> bool:
+    """Tell whether somebody plans on from where a vehicle is, on a map of the earth."""
+    return dispatch.day is not None and any(step.location is not None for step in steps)
 
 
 def open_or_over(store: DispatchStore, token: str) -> tuple[VehicleLinkRow, DispatchRow]:
@@ -128,6 +136,9 @@ def _row(event: EventInput, vehicle: str, step: StepReply | None, wrong_by: int,
     told: dict[str, Any] = {"by": "driver"}
     if event.step == SEEN:
         return ToldRow(event.id, PLAN_SEEN, time, vehicle, body=to_json(told).decode())
+    if event.location is not None:
+        told["location"] = event.location
+        return ToldRow(event.id, "vehicle.position", time, vehicle, body=to_json(told).decode())
     if step is not None and step.customers:
         told["orders"] = [each.id for each in step.customers]
     if step is not None and step.drone is not None:

@@ -1,9 +1,11 @@
 """What is sent to and got from the endpoints of dispatches and drivers."""
 
 from datetime import datetime
-from typing import Annotated, Any, Literal
+from typing import Annotated, Any, Literal, Self
 
-from pydantic import AwareDatetime, BaseModel, ConfigDict, Field
+from pydantic import AwareDatetime, BaseModel, ConfigDict, Field, model_validator
+
+from pydantic_core import PydanticCustomError
 
 from app.schemas.check import PlannedProblem
 from app.schemas.fields import Avoided, Info
@@ -14,6 +16,9 @@ BREAKDOWN: Literal["vehicle"] = "vehicle"
 
 SEEN: Literal["changes"] = "changes"
 """In place of a step's id: the driver has seen what is new and what was taken away."""
+
+POSITION: Literal["position"] = "position"
+"""In place of a step's id: where the vehicle is."""
 
 Outcome = Literal["done", "failed"]
 EventKind = Literal["done", "failed", "undone"]
@@ -31,6 +36,9 @@ TIME_ZONE = (
     "Zone in which drivers read times, by its name in the IANA's list, such as `Europe/Berlin`. "
     "Null: the problem's; if there is none, the offset of `plan_start`."
 )
+
+Longitude = Annotated[float, Field(ge=-180, le=180)]
+Latitude = Annotated[float, Field(ge=-90, le=90)]
 
 PlanStart = Annotated[AwareDatetime | None, Field(description=PLAN_START)]
 TimeZone = Annotated[str | None, Field(max_length=100, description=TIME_ZONE)]
@@ -162,6 +170,7 @@ class DriverDay(_Reply):
     flights: int = Field(
         description="Flights of its drones that `GET /drive/flights` writes for their controllers.")
     flies: bool = Field(description="Whether the vehicle is a drone whose own trips these are.")
+    asks_position: bool = Field(description="Whether a `position` is of use to who plans.")
     standing: list[StepStanding] = Field(description="What was told of steps so far.")
 
 
@@ -173,12 +182,22 @@ class EventInput(DriverInput):
     )
     step: Annotated[str, Field(min_length=1, max_length=40)] = Field(
         description="Id of the step; `vehicle`, with `failed`: it has broken down; `changes`, with "
-        "`done`: what is new was seen.")
+        "`done`: what is new was seen; `position`, with `done`: where the vehicle is.")
     kind: EventKind = Field(description="`undone` takes back what was told before.")
     time: AwareDatetime = Field(description="When it happened, by the sender's clock.")
     reason: Annotated[str, Field(max_length=MAX_REASON_LENGTH)] | None = Field(
         None, description="Why it failed."
     )
+    location: tuple[Longitude, Latitude] | None = Field(
+        None, description="Of a `position`. It is kept for days alone, on a map of the earth.")
+
+    @model_validator(mode="after")
+    def _is_somewhere(self) -> Self:
+        """Refuse a position without a place, and a place of anything else."""
+        if (self.step == POSITION) != (self.location is not None):
+            raise PydanticCustomError(
+                "WRONG_TYPE", "`location` and a step of `position` belong together.")
+        return self
 
 
 class EventsRequest(DriverInput):

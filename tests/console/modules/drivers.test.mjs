@@ -9,6 +9,7 @@ register('./as-served.mjs', import.meta.url);
 const { clock, windowText } = await import('../../../app/records/dispatches/static/js/clocks.js');
 const { linkOf, tokenOf } = await import('../../../app/records/dispatches/static/js/link.js');
 const { chosenNavigator, NAVIGATORS, navigation } = await import('../../../app/records/dispatches/static/js/navigators.js');
+const { allow, isAllowed, watch } = await import('../../../app/records/dispatches/static/js/positions.js');
 const { isBroken, isOther, newsOf, nextStep, standings, telephone, titleOf } = await import('../../../app/records/dispatches/static/js/steps.js');
 
 const PLACE = { latitude: 48.1, longitude: 11.5 };
@@ -184,4 +185,46 @@ test('what is new for a driver, and what was taken away, is told by place', () =
   const { added, gone } = newsOf({ seen, steps });
   assert.deepEqual([added, gone].map((list) => list.map(({ place }) => place)), [['B'], ['A']]);
   assert.deepEqual(newsOf({ steps }).added.length, 2);
+});
+
+test('where the vehicle is is told at most every half minute, and the latest at last', (test_) => {
+  test_.mock.timers.enable({ apis: ['setInterval', 'Date'] });
+  let hear;
+  let fail;
+  const geolocation = {
+    watchPosition: (onPlace, onError) => {
+      [hear, fail] = [onPlace, onError];
+      return 7;
+    },
+    clearWatch: test_.mock.fn(),
+  };
+  globalThis.navigator ??= {};
+  Object.defineProperty(navigator, 'geolocation', { value: geolocation, configurable: true });
+  const told = [];
+  const refused = test_.mock.fn();
+  const end = watch((place) => told.push(place), refused);
+  const at = (longitude) => hear({ coords: { longitude, latitude: 48.1 } });
+  at(11.5000012);
+  at(11.51);
+  at(11.52);
+  assert.deepEqual(told, [[11.5, 48.1]]);
+  test_.mock.timers.tick(30_000);
+  assert.deepEqual(told, [[11.5, 48.1], [11.52, 48.1]]);
+  test_.mock.timers.tick(60_000);
+  assert.equal(told.length, 2);
+  fail({ code: 2, PERMISSION_DENIED: 1 });
+  assert.equal(refused.mock.callCount(), 0);
+  fail({ code: 1, PERMISSION_DENIED: 1 });
+  assert.equal(refused.mock.callCount(), 1);
+  end();
+  assert.deepEqual(geolocation.clearWatch.mock.calls[0].arguments, [7]);
+});
+
+test('nobody allows it who was not asked', () => {
+  const kept = storage();
+  assert.equal(isAllowed(kept), false);
+  allow(kept, true);
+  assert.equal(isAllowed(kept), true);
+  allow(kept, false);
+  assert.equal(isAllowed(kept), false);
 });

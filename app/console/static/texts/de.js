@@ -2305,6 +2305,10 @@ export default {
     dismiss: 'Nichts davon',
     delay: 'Später um',
     delayOf: '{{vehicle}} kommt später',
+    sooner: '{{vehicle}} bedient ihn um {{at}} ({{cost}})',
+    mend: 'Machen',
+    mendOf: '{{id}}: {{remedy}}',
+    sighted: '{{vehicle}}, vor {{ago}}',
     whole: 'Fährt wieder',
     list: {
       late_one: '{{count}} zu spät',

@@ -2252,6 +2252,10 @@ export default {
     dismiss: 'None of them',
     delay: 'Later by',
     delayOf: '{{vehicle}} is later',
+    sooner: '{{vehicle}} serves it at {{at}} ({{cost}})',
+    mend: 'Do it',
+    mendOf: '{{id}}: {{remedy}}',
+    sighted: '{{vehicle}}, {{ago}} ago',
     whole: 'Goes on again',
     list: {
       late_one: '{{count}} late',

@@ -13,6 +13,7 @@ const FILES = [
   'js/link.js',
   'js/main.js',
   'js/navigators.js',
+  'js/positions.js',
   'js/proofs.js',
   'js/queue.js',
   'js/reasons.js',

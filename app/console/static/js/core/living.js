@@ -93,6 +93,17 @@ export function newsOf(day, index, changes) {
   return new Map([...changes, ...late, ...doubts]);
 }
 
+/** Return marks of where vehicles were told to be, each with how long ago: `{location, text}`. */
+export function sightingsOf({ vehicles, now }) {
+  return vehicles.filter(({ position }) => position).map((vehicle) => ({
+    location: vehicle.position,
+    text: t('live.sighted', {
+      vehicle: nameOfVehicle(vehicle.vehicle),
+      ago: duration(Math.max(0, now - vehicle.position_at)),
+    }),
+  }));
+}
+
 /** Return the events that make one problem's orders another's: what isn't told yet. */
 export function untoldOf(base, request) {
   const [was, now] = [base, request].map(({ customers }) =>

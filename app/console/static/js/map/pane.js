@@ -3,6 +3,7 @@
 import { besidePlan, hover, indexOf, select, settledOf, shownPlan } from '../actions.js';
 import { describe } from '../core/describe.js';
 import { flownLines } from '../core/flights.js';
+import { sightingsOf } from '../core/living.js';
 import { placeOf } from '../core/places.js';
 import { playback } from '../core/playback.js';
 import { visitsOf } from '../core/visits.js';
@@ -174,14 +175,16 @@ function followClock(view, index) {
   const placesAt = playback(index, flownLines(index.request));
   let last;
   const follow = ({ time, live }) => {
-    if (time === last) return;
-    last = time;
+    if (time === last?.time && live?.day === last.day) return;
+    last = { time, day: live?.day };
+    view.sight(live && time === live.day.now ? sightingsOf(live.day) : []);
     view.move(time === null ? null : whereTold(placesAt(time), live?.day, time));
   };
   follow(store.get());
   const end = store.subscribe(follow);
   return () => {
     end();
+    view.sight([]);
     view.move(null);
   };
 }
@@ -190,7 +193,7 @@ const LASTS = 600; // seconds for which a vehicle is where it was told to be
 
 /** Return places with vehicles where they were told to be just now. */
 function whereTold(places, day, time) {
-  const told = day?.vehicles.filter(({ position, told_at: at }) =>
+  const told = day?.vehicles.filter(({ position, position_at: at }) =>
     position && time === day.now && time - at < LASTS);
   return told?.length ? { ...places, trucks: places.trucks.map((truck) => ({
     ...truck,

@@ -74,6 +74,7 @@ export class MapView {
     this.shapes = L.layerGroup().addTo(this.map);
     this.labels = L.layerGroup().addTo(this.map);
     this.numbers = L.layerGroup().addTo(this.map);
+    this.sighted = L.layerGroup().addTo(this.map);
     this.movers = L.layerGroup().addTo(this.map);
     this.request = null; // what is drawn, from `draw` on
     this.index = null;
@@ -295,6 +296,14 @@ export class MapView {
         this.map.fitBounds(bounds, { padding: [60, 60], maxZoom: this.map.getZoom() });
       else this.map.panInside(entry.layer.getLatLng(), { padding: [70, 70] });
     }
+  }
+
+  /** Note where vehicles were seen, `{location, text}`. */
+  sight(places) {
+    if (this.isGone) return;
+    this.sighted.clearLayers();
+    notes(places.map((place) => ({ ...place, className: 'sight-mark' })))
+      .forEach((mark) => this.sighted.addLayer(mark));
   }
 
   /** Place trucks and drones, `{trucks, drones}` of `playback`; null takes them away. */

@@ -4,6 +4,7 @@ import { html, render } from '../../console/vendor/htm-3.1.1/standalone.module.j
 import * as days from './days.js';
 import { saveFlights } from './flights.js';
 import { forgetToken, linkOf, tokenOf } from './link.js';
+import { allow, isAllowed, POSITION, watch } from './positions.js';
 import { ask, eventOf, LinkOver, PROOF, Refused, send } from './queue.js';
 import { forgetDraft } from './reasons.js';
 import { CHANGES } from './steps.js';
@@ -16,9 +17,10 @@ const REFRESH_MS = 60000;
 const root = document.getElementById('day');
 const token = tokenOf(location.hash, localStorage);
 const link = token && linkOf(token);
-const state = { day: null, waiting: [], isReached: true, failure: '' };
+const state = { day: null, waiting: [], isReached: true, failure: '', sharing: 'off' };
 let asking = Promise.resolve();
 let asked = 0;
+let endSharing = () => {};
 
 /** Show the day, or why there is none. */
 function draw() {
@@ -28,6 +30,7 @@ function draw() {
       onTell: tell,
       onProve: prove,
       onSeen: seeChange,
+      onShare: share,
       onLanguage: draw,
       onFlights: (format) => saveFlights(token, format),
     };
@@ -50,9 +53,36 @@ async function prove(step, proof) {
   await keepTold(step, PROOF, { proof });
 }
 
+/** Tell where the vehicle is from now on, or no more, and remember it. */
+function share(isShared) {
+  allow(localStorage, isShared);
+  endSharing();
+  endSharing = isShared ? watch(tellPosition, refuseSharing) : () => {};
+  state.sharing = isShared ? 'on' : 'off';
+  draw();
+}
+
+/** Tell where the vehicle is; where it was before nobody needs to know any more. */
+async function tellPosition(location) {
+  const waiting = await days.waitingEvents(link);
+  await days.dropEvents(waiting.filter(({ step }) => step === POSITION));
+  await keepTold(POSITION, 'done', { location });
+}
+
+function refuseSharing() {
+  share(false);
+  state.sharing = 'refused';
+  draw();
+}
+
+async function look() {
+  const waiting = await days.waitingEvents(link);
+  state.waiting = waiting.filter(({ step }) => step !== POSITION);
+}
+
 async function keepTold(step, kind, more) {
   await days.keepEvent(eventOf(link, step, kind, more));
-  state.waiting = await days.waitingEvents(link);
+  await look();
   draw();
   catchUp();
 }
@@ -79,7 +109,7 @@ async function exchange(isDue) {
   } catch (error) {
     await give(error);
   }
-  state.waiting = await days.waitingEvents(link);
+  await look();
   draw();
 }
 
@@ -102,6 +132,7 @@ async function give(error) {
   state.failure = error.message;
   await days.dropEvents(await days.waitingEvents(link));
   if (error instanceof Refused) return;
+  endSharing();
   // Nothing of customers stays behind on a phone.
   await days.forgetDay(link);
   forgetToken(token, localStorage);
@@ -121,7 +152,7 @@ async function begin() {
   navigator.serviceWorker?.register('sw.js');
   navigator.storage?.persist?.();
   state.day = (await days.keptDay(link)) ?? null;
-  state.waiting = await days.waitingEvents(link);
+  await look();
   if (state.day) draw();
   addEventListener('online', () => catchUp({ isDue: true }));
   document.addEventListener('visibilitychange', () => {
@@ -131,6 +162,7 @@ async function begin() {
     if (!document.hidden) catchUp();
   }, RETRY_MS);
   await catchUp({ isDue: true });
+  if (state.day?.asks_position && isAllowed(localStorage)) share(true);
 }
 
 begin();

@@ -57,12 +57,13 @@ export async function send(token, link) {
     const marks = waiting.filter(({ kind }) => kind !== PROOF).slice(0, MOST_AT_ONCE);
     // Pictures are large, and come last.
     const events = marks.length ? marks : waiting.slice(0, 1);
-    const told = marks.map(({ id, step, kind, time, reason }) => ({
+    const told = marks.map(({ id, step, kind, time, reason, location }) => ({
       id,
       step,
       kind,
       time,
       ...(reason && { reason }),
+      ...(location && { location }),
     }));
     const now = new Date().toISOString();
     const reply = told.length ? await ask(token, 'events', { now, events: told })

@@ -41,8 +41,8 @@ export function calledIn({ name, vehicle }) {
 }
 
 /** The whole day. */
-export function Day({ day, waiting, isReached, failure, link, onTell, onProve, onSeen, onLanguage,
-  onFlights }) {
+export function Day({ day, waiting, isReached, failure, sharing, link, onTell, onProve, onSeen,
+  onShare, onLanguage, onFlights }) {
   const [navigator_, setNavigator] = useState(
     chosenNavigator(localStorage, window.navigator.userAgent),
   );
@@ -77,6 +77,7 @@ export function Day({ day, waiting, isReached, failure, link, onTell, onProve, o
         (name) => html`<option key=${name} value=${name}
           selected=${name === navigator_}>${navigatorName(name)}</option>`,
       )}</select></label>
+    ${day.asks_position && html`<${Sharing} sharing=${sharing} onShare=${onShare} />`}
     <${LanguageChoice} label=${t('page.language')} language=${language()}
       onChoose=${async (name) => {
         await choose(name);
@@ -113,6 +114,15 @@ function Flights({ onFlights }) {
       setFailure(await onFlights(format))}>${t('flights.save')}</button>
     <p class="hint">${t('flights.facts')}</p>
     ${failure && html`<p role="alert" class="unsent">${failure}</p>`}`;
+}
+
+/** Whether the vehicle's place is told, and to whom. */
+function Sharing({ sharing, onShare }) {
+  return html`<label class="switch"><input type="checkbox" role="switch"
+      checked=${sharing === 'on'} onChange=${(event) => onShare(event.target.checked)} />
+    ${t('share.switch')}</label>
+    <p class="hint">${t('share.who')}</p>
+    ${sharing === 'refused' && html`<p role="alert" class="unsent">${t('share.refused')}</p>`}`;
 }
 
 /** What a driver says whose vehicle can't go on, asked once more before it is told. */

@@ -41,6 +41,13 @@ export default {
     offline: 'Der Dienst ist nicht erreichbar: Versuchen Sie es noch einmal.',
     refused: 'Diese Flüge lassen sich in diesem Format nicht angeben: Wählen Sie ein anderes.',
   },
+  share: {
+    switch: 'Zeigen, wo ich bin',
+    who:
+      'Nur die Disposition sieht es, nur heute, höchstens zweimal in der Minute, solange diese ' +
+      'Seite offen ist.',
+    refused: 'Dieses Telefon sagt nicht, wo es ist: Erlauben Sie es dieser Seite.',
+  },
   breakdown: {
     told: 'Sie haben eine Panne gemeldet: Andere werden für Ihre Stopps eingeplant.',
     over: 'Es geht wieder weiter',

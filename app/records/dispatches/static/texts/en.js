@@ -36,6 +36,12 @@ export default {
     offline: 'The service cannot be reached: try again.',
     refused: 'These flights cannot be told in this format: choose another.',
   },
+  share: {
+    switch: 'Share where I am',
+    who:
+      'Your dispatcher alone sees it, for today, twice a minute at most, while this page is open.',
+    refused: 'This phone does not tell where it is: allow it for this page.',
+  },
   breakdown: {
     told: 'You told that your vehicle has broken down: others are planned for your stops.',
     over: 'It goes on again',
