@@ -63,7 +63,7 @@ def _quoted(bench: Bench, slot: SlotInput, best: Fit | None, future: float | Non
     """Return what a slot would cost at the best place, and more for what may come."""
     reply: Data = {"earliest": slot.earliest, "latest": slot.latest, "by": slot.by,
                    "feasible": False, "cost": None, "of_which_future": None, "vehicle": None,
-                   "arrival": None, "why": []}
+                   "arrival": None, "after": None, "why": []}
     if best is None:
         return reply
     broken = new_violations(best.bench, best.trial)
@@ -73,7 +73,8 @@ def _quoted(bench: Bench, slot: SlotInput, best: Fit | None, future: float | Non
     cost = more_than_without(best.bench, best.trial)["total"]
     more = None if future is None else money(future)
     return reply | {"feasible": True, "cost": cost + (more or 0.0), "of_which_future": more,
-                    "vehicle": placed["vehicle"], "arrival": placed["service_start"]}
+                    "vehicle": placed["vehicle"], "arrival": placed["service_start"],
+                    "after": placed["position"] and placed["position"]["after"]}
 
 
 def _within(customer: Customer, slot: SlotInput) -> Customer:

@@ -102,6 +102,7 @@ class SlotReply(_Reply):
         "negative where it rides along with them. Null: nothing is known of them.")
     vehicle: str | None = Field(None, description="Who would serve it.")
     arrival: InstantReply | None = Field(None, description="When.")
+    after: str | None = Field(None, description="Behind which stop of its trip.")
     why: list[RuleReply] = Field([], description="Rules that forbid it.")
 
 

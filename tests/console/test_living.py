@@ -8,6 +8,7 @@ import pytest
 from playwright.sync_api import Page, expect
 
 from tests.app.records.days.living import PROBLEM, begun, order, standing, told
+from tests.app.records.days.test_lateness import FAR
 from tests.console.test_everyone import findings
 from tests.console.steps import open_tab, place_of, state
 from tests.conftest import PATIENCE
@@ -75,6 +76,21 @@ def test_order_is_placed_by_a_click_on_the_map_and_a_slot(
     page.locator(".quote button.primary").click()
     expect(page.locator(".map-label.news.new")).to_have_count(1)
     assert len(standing(client, day).orders) == len(PROBLEM["customers"]) + 1
+
+
+def test_who_may_be_late_is_served_sooner_by_one_click(
+        client: httpx.Client, service: str, open_page: Callable[..., Page]) -> None:
+    slow, promised = FAR["customers"]
+    day = begun(client, {**FAR, "customers": [
+        {**slow, "service_duration": 400}, {**promised, "time_window": {"latest": 1750}}]})
+    page = open_page(f"{service}/#day={day}")
+    late = page.locator("[data-list=late]")
+    expect(late).to_contain_text(re.compile("B.*may be late.*van serves it at 0:22 .0.00"))
+    assert findings(page, ".panel") == []
+    late.get_by_role("button", name="B: van serves it").click()
+    expect(late).to_have_count(0)
+    found = {each.id: each for each in standing(client, day).orders}["B"]
+    assert (found.arrival, found.at_risk) == (1300, False)
 
 
 def test_what_is_not_told_yet_is_undone_and_told_with_one_click(

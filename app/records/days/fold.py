@@ -55,7 +55,7 @@ class ToldDay:
     pins: dict[str, Pin] = field(default_factory=dict)  # by order, the last one last
     clock: int | None = None  # the latest time, of a day that goes by what it is told
     etas: dict[str, float] = field(default_factory=dict)  # that were told, by order
-    at_risk: set[str] = field(default_factory=set)
+    at_risk: dict[str, Data] = field(default_factory=dict)  # what was told of orders
     pace: Pace = NO_PACE
     plan_start: int = 0  # milliseconds since 1970
 
@@ -116,7 +116,9 @@ def _take(told: ToldDay, event: LoggedEvent) -> None:
     elif event.kind == "eta.changed":
         told.etas[about["order"]] = about["arrival"]
     elif event.kind == "order.at_risk":
-        (told.at_risk.add if about["at_risk"] else told.at_risk.discard)(about["order"])
+        told.at_risk.pop(about["order"], None)
+        if about["at_risk"]:
+            told.at_risk[about["order"]] = about
     if event.vehicle is not None and event.kind in CLIENTS and event.kind != "order.pinned":
         told.told_at[event.vehicle] = event.time
 

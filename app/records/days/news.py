@@ -51,7 +51,7 @@ def news_of(number: int, planned: int, at: int, told: ToldDay, before: PlanInput
         "order": order, "at_risk": True, **why, **mended.get(order, {})})
         for order, why in new.items()]
     rows += [_row(number, at, "order.at_risk", order, {"order": order, "at_risk": False})
-             for order in sorted(told.at_risk - risks.keys())]
+             for order in sorted(told.at_risk.keys() - risks.keys())]
     return rows
 
 

@@ -4,7 +4,7 @@ It is asked of `POST /quote`, in the plan without the order: once in its window,
 ends sooner by as much as it may be later than planned. What the second costs more is the remedy's.
 """
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from typing import Any
 
 from pydantic_core import from_json, to_json
@@ -23,7 +23,7 @@ Quote = Callable[[bytes], bytes]
 
 def remedy_of(order: str, wanted: Mapping[str, Any], reply: Mapping[str, Any], now: float,
               quote: Quote) -> Data | None:
-    """Return who else serves an order so that it is hardly late, and what that costs more.
+    """Return who serves an order so that it is hardly late, what that costs more, and its events.
 
     None: nobody does, or the order is on its way already.
 
@@ -61,7 +61,22 @@ def remedy_of(order: str, wanted: Mapping[str, Any], reply: Mapping[str, Any], n
     if not slot["feasible"] or not now_kept["feasible"]:
         return None
     return {"code": "serve_sooner", "vehicle": slot["vehicle"], "arrival": slot["arrival"],
-            "cost": slot["cost"] - now_kept["cost"]}
+            "cost": slot["cost"] - now_kept["cost"],
+            "events": list(_events(order, slot["vehicle"], slot["after"], routes))}
+
+
+def _events(order: str, vehicle: str, after: str, routes: Iterable[Data]) -> Iterator[Data]:
+    """Yield what makes it so: the vehicle serves the order, and whoever is next there behind it."""
+    yield {"kind": "order.pinned", "order": order, "vehicle": vehicle}
+    for route in routes:
+        for trip in route["trips"] if route["vehicle"] == vehicle else ():
+            names = [stop["id"] for stop in trip["stops"]]
+            if after in names[:-1]:
+                following = trip["stops"][names.index(after) + 1]
+                if following["kind"] == "customer":
+                    yield {"kind": "order.pinned", "order": following["id"], "vehicle": vehicle,
+                           "after": order}
+                return
 
 
 def _without(order: str, reply: Mapping[str, Any],

@@ -61,6 +61,17 @@ class PinReply(_Reply):
     after: str | None = Field(None, description="Whom the vehicle serves before.")
 
 
+class OrderRemedyReply(_Reply):
+    """What mends an order that may be late, at the least cost when that was told."""
+
+    code: Literal["serve_sooner"] = Field(description="What it is.")
+    vehicle: str = Field(description="Who serves it.")
+    arrival: float = Field(description="When.")
+    cost: float = Field(description="What the plan costs more.")
+    events: list[dict[str, Any]] = Field(
+        description="That make it so; add `event_id` and `at`.")
+
+
 class OrderReply(_Reply):
     """How an order stands."""
 
@@ -80,6 +91,7 @@ class OrderReply(_Reply):
     at_risk: bool = Field(False, description="Whether `order.at_risk` holds.")
     pinned: PinReply | None = Field(
         None, description="What `order.pinned` settled and nobody lifted.")
+    remedy: OrderRemedyReply | None = Field(None, description="What it was told with.")
 
 
 class VehicleReply(_Reply):

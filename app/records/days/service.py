@@ -357,7 +357,8 @@ def _orders(told: ToldDay, plan: PlanInput, now: float) -> Iterable[OrderReply]:
             state = "doubtful"
         yield OrderReply(id=order, state=state, vehicle=vehicle, arrival=visit.arrival,
                          told=told.etas.get(order), at_risk=order in told.at_risk,
-                         pinned=_pin(told, order), **chance_of(visit))
+                         pinned=_pin(told, order),
+                         remedy=told.at_risk.get(order, {}).get("remedy"), **chance_of(visit))
     for left in plan.unassigned:
         seen.add(left.id)
         yield OrderReply(id=left.id, state="left_out", at_risk=left.id in told.at_risk,

@@ -1,7 +1,8 @@
 import assert from 'node:assert/strict';
 import test from 'node:test';
 import {
-  changesOf, doubtsOf, lateInWords, lateOf, slotsFor, untoldOf, waitingOf, withUntold,
+  changesOf, doubtsOf, lateInWords, lateOf, liveRemedyInWords, remedyFor, sightingsOf, slotsFor,
+  untoldOf, waitingOf, withUntold,
 } from '../../../app/console/static/js/core/living.js';
 
 const customer = (id, more = {}) => ({ id, location: [0, 0], demand: [1], ...more });
@@ -46,6 +47,25 @@ test('who is late, waits or is in doubt is told by how the day stands', () => {
   assert.deepEqual(lateOf(risky, index).map(lateInWords), ['may be late (30 %)']);
   assert.deepEqual(doubtsOf(day).map(([vehicle, orders]) => [vehicle, orders.length]),
     [['van-1', 2]]);
+});
+
+test('a remedy is offered while the plan is the one that it was told for', () => {
+  const events = [{ kind: 'order.pinned', order: 'B', vehicle: 'van-2' },
+    { kind: 'order.pinned', order: 'A', vehicle: 'van-2', after: 'B' }];
+  const remedy = { code: 'serve_sooner', vehicle: 'van-2', arrival: 1300, cost: 12.4, events };
+  const order = { id: 'B', state: 'planned', vehicle: 'van-1', remedy, pinned: null };
+  const day = (vehicle) => ({ orders: [order, { id: 'A', state: 'planned', vehicle }] });
+  assert.equal(remedyFor(day('van-2'), order), remedy);
+  assert.equal(liveRemedyInWords(remedy), 'van-2 serves it at 0:22 (+12.40)');
+  assert.equal(remedyFor(day('van-1'), order), null);
+  assert.equal(remedyFor(day('van-2'), { ...order, pinned: { vehicle: 'van-1' } }), null);
+  assert.equal(remedyFor(day('van-2'), { ...order, remedy: null }), null);
+});
+
+test('where vehicles were seen is told with how long ago that was', () => {
+  const seen = { vehicle: 'van-1', position: [11.5, 48.1], position_at: 60 };
+  assert.deepEqual(sightingsOf({ now: 180, vehicles: [seen, { vehicle: 'v', position: null }] }), [
+    { location: [11.5, 48.1], text: 'van-1, 2 min ago' }]);
 });
 
 test('what is edited and not told yet stays where others tell something', () => {

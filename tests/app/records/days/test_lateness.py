@@ -99,8 +99,18 @@ def test_remedy_is_another_place_in_the_plan_at_its_price(service: httpx.Client)
         {**slow, "service_duration": 400}, {**promised, "time_window": {"latest": 1750}}]})
     risk, = about(service, day, "order.at_risk", "B")
     # The same van serves it 400 s sooner, before the other, and drives as far.
-    assert risk["remedy"] == {"code": "serve_sooner", "vehicle": "van-1", "arrival": 1300,
-                              "cost": pytest.approx(0, abs=1e-6)}
+    remedy: Data = {
+        "code": "serve_sooner", "vehicle": "van-1", "arrival": 1300,
+        "cost": pytest.approx(0, abs=1e-6), "events": [
+            {"kind": "order.pinned", "order": "B", "vehicle": "van-1"},
+            {"kind": "order.pinned", "order": "A", "vehicle": "van-1", "after": "B"}]}
+    assert risk["remedy"] == remedy
+    found = {each.id: each for each in standing(service, day).orders}["B"]
+    assert found.remedy is not None
+    assert found.remedy.model_dump() == remedy
+    told(service, day, clock(), *remedy["events"], at=10)
+    found = {each.id: each for each in standing(service, day).orders}["B"]
+    assert (found.arrival, found.at_risk, found.remedy) == (1300, False, None)
     day = begun(service, {**FAR, "fleet": [{**FAR["fleet"][0], "count": 2}], "customers": [
         {**slow, "service_duration": 400, "time_window": {"latest": 750}},
         {**promised, "time_window": {"latest": 1750}}]})

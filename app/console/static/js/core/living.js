@@ -1,6 +1,6 @@
 /** A day as it happens: what changed a moment ago, who is late, who waits, what isn't told yet. */
 
-import { clock, duration, money, percent } from './format.js';
+import { clock, duration, money, percent, signed } from './format.js';
 import { saidOf } from './said.js';
 import { nameOfVehicle } from './vehicle-labels.js';
 import { t } from '../texts.js';
@@ -45,6 +45,20 @@ export function lateOf({ orders }, index) {
     const by = Math.max(index?.halts.get(key)?.lateness ?? 0, behind < PROMISED ? 0 : behind);
     return by < LEAST && !order.at_risk ? [] : [{ ...order, key, by }];
   }).sort((one, other) => other.by - one.by);
+}
+
+/** Return what mends an order that may be late, null if nothing is known or the plan is another. */
+export function remedyFor({ orders }, { remedy, pinned }) {
+  const byId = new Map(orders.map((each) => [each.id, each]));
+  const isThere = ({ order, vehicle, after }) => !after || (byId.get(order)?.state === 'planned'
+    && byId.get(order).vehicle === vehicle);
+  return remedy && !pinned && remedy.events.every(isThere) ? remedy : null;
+}
+
+/** Return a remedy in words. */
+export function liveRemedyInWords({ vehicle, arrival, cost }) {
+  return t('live.sooner', {
+    vehicle: nameOfVehicle(vehicle), at: clock(arrival), cost: signed(cost) });
 }
 
 /**

@@ -3,7 +3,9 @@
 import { shownPlan, indexOf } from '../actions.js';
 import { driverReason } from '../core/dispatches.js';
 import { clock, money } from '../core/format.js';
-import { doubtsOf, lateInWords, lateOf, slotInWords, waitingOf } from '../core/living.js';
+import {
+  doubtsOf, lateInWords, lateOf, liveRemedyInWords, remedyFor, slotInWords, waitingOf,
+} from '../core/living.js';
 import { saidOf } from '../core/said.js';
 import { nameOfVehicle } from '../core/vehicle-labels.js';
 import { html, useState } from '../libraries.js';
@@ -35,7 +37,8 @@ export function LiveDay() {
     <${Listed} name="late" rows=${late} most=${most} row=${(order) =>
       html`<${SelectButton} of=${order.key}>${order.id}</${SelectButton}>
         <span>${nameOfVehicle(order.vehicle)}, ${clock(order.arrival)}</span>
-        <span class=${`news ${live.news.get(order.key)?.kind}`}>${lateInWords(order)}</span>`} />
+        <span class=${`news ${live.news.get(order.key)?.kind}`}>${lateInWords(order)}</span>
+        ${!isWall && html`<${Mended} order=${order} remedy=${remedyFor(day, order)} />`}`} />
     <${Listed} name="waiting" rows=${waiting} most=${most} row=${({ key, id, why }) =>
       html`<${SelectButton} of=${key}>${id}</${SelectButton}> <span>${why}</span>`} />
     <${Listed} name="changed" rows=${changed} most=${most} row=${([key, { kind, text }]) =>
@@ -47,6 +50,15 @@ export function LiveDay() {
     <${Listed} name="told" rows=${news} most=${most} row=${(event) =>
       html`<span>${clock(event.at)}</span> <span>${inWords(event)}</span>`} />
   </div>`;
+}
+
+/** What serves an order sooner, done by one click. */
+function Mended({ order, remedy }) {
+  if (!remedy) return null;
+  const words = liveRemedyInWords(remedy);
+  return html`<span class="buttons"><span>${words}</span> <button type="button"
+    aria-label=${t('live.mendOf', { id: order.id, remedy: words })}
+    onClick=${() => tell(...remedy.events)}>${t('live.mend')}</button></span>`;
 }
 
 /** Return what was told from the road, in words. */
