@@ -42,8 +42,7 @@ from app.requests.warnings.addresses import address_warnings
 from app.requests.warnings.finding import warnings_of
 from app.requests.warnings.warning import RequestWarning
 from app.schemas.errors import InputError, InvalidRequestError
-from app.schemas.fairness import ChangeCostsInput
-from app.schemas.request import PlanRequest, ReplanInput
+from app.schemas.request import OptionsInput, PlanRequest, ReplanInput
 from app.schemas.response import PlanReply
 from model.counsel.bench import Setting
 from model.counsel.binding import Limit
@@ -297,7 +296,7 @@ def task_of(request: PlanRequest, preparing: Preparing = UNHURRIED,
         estimates = travels.estimates()
         return task(None, *beside, None if estimates is None else FarPlans(problem, estimates))
     replan, places_stated = with_what_is_there(replan, request.fleet)
-    terms = _terms(replan, request.options.change_costs, problem)
+    terms = _terms(replan, request.options, problem)
     going_on = replace(preparing, work="Legs and the plan to go on from",
                        advice="send fewer customers or vehicles at once")
     going_on.expect(replanning_seconds(problem, terms.plan))
@@ -346,7 +345,7 @@ def _stated(path: str, routes: Sequence[int]) -> str:
                               lambda match: f"routes[{routes[int(match[1])]}]", path))
 
 
-def _terms(replan: ReplanInput, prices: ChangeCostsInput | None, problem: Problem) -> Terms:
+def _terms(replan: ReplanInput, options: OptionsInput, problem: Problem) -> Terms:
     plan = read_earlier_plan(replan.plan, problem, ("replan", "plan"))
     names = set(replan.pinned)
     pinned = frozenset(
@@ -354,6 +353,10 @@ def _terms(replan: ReplanInput, prices: ChangeCostsInput | None, problem: Proble
         if replan.pin_all or customer.id in names for place in problem.places_of(node))
     unavailable, grounded = set[Vehicle](), defaultdict[Vehicle, set[int]](set)
     types = {kind.type_id for kind in problem.vehicle_types}
+    prices, limits = options.change_costs, options.change_limits
+    concerned = frozenset([Vehicle(*problem.find_vehicle(named.vehicle_type, named.number))
+                           for name in replan.concerned
+                           if (named := read_name(name, types)) is not None])
     for name in replan.unavailable:
         named = read_name(name, types)
         if named is None:
@@ -368,7 +371,9 @@ def _terms(replan: ReplanInput, prices: ChangeCostsInput | None, problem: Proble
                  {vehicle: frozenset(drones) for vehicle, drones in grounded.items()},
                  replan.keep_order,
                  None if prices is None else ChangePrices(**prices.model_dump()),
-                 _promised(replan, problem))
+                 _promised(replan, problem),
+                 concerned if limits.vehicles == "concerned" else None,
+                 limits.new_orders == "behind")
 
 
 def _promised(replan: ReplanInput, problem: Problem) -> dict[int, int]:

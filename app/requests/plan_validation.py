@@ -25,7 +25,7 @@ def replan_errors(replan: ReplanInput | None, names: Names) -> list[InputError]:
         return []
     checker = _Checker(replan, names)
     return [*checker.routes(), *checker.customers(), *checker.unavailable(), *checker.pinned(),
-            *checker.doubtful(), *checker.instants()]
+            *checker.concerned(), *checker.doubtful(), *checker.instants()]
 
 
 class _Checker:
@@ -241,6 +241,16 @@ class _Checker:
                     yield _error("UNKNOWN_DRONE", path,
                                  f"Vehicles of {named.vehicle_type} have {count} drones: use the "
                                  "vehicle's name, '/drone-' and a number from 1 to that.")
+
+    def concerned(self) -> Errors:
+        """Vehicles that the fleet doesn't have."""
+        fleet = self._names.fleet
+        for index, name in enumerate(self._replan.concerned if fleet is not None else ()):
+            named = read_name(name, fleet or ())
+            if (named is None or named.drone is not None
+                    or named.number >= (fleet or {})[named.vehicle_type].count):
+                yield _error("UNKNOWN_VEHICLE", ("concerned", index), f"The fleet has no vehicle "
+                             f"{name!r}: use a type's id, '-' and a number from 1 to its count.")
 
     def pinned(self) -> Errors:
         """Customers who can't stay with their vehicle."""

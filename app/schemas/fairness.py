@@ -33,6 +33,18 @@ class ChangeCostsInput(Input):
         "`replan.promised` says, or the plan before.")
 
 
+class ChangeLimitsInput(Input):
+    """What of a plan gone on from may change at all."""
+
+    new_orders: Literal["anywhere", "behind"] = Field(
+        "anywhere", description="Where new orders may come: `anywhere` in a route, or only "
+        "`behind` all whom its vehicle served in the plan before.")
+    vehicles: Literal["any", "concerned"] = Field(
+        "any", description="Whose orders may move: those of `any` vehicle, or those of the "
+        "vehicles in `replan.concerned`, and within these vehicles' routes alone. All others keep "
+        "their vehicle and their place in its order, unless it is unavailable.")
+
+
 class FairnessInput(Input):
     """What a plan costs as a whole, beside what its routes cost."""
 

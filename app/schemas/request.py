@@ -12,7 +12,7 @@ from app.schemas.airspace import AirspaceInput
 from app.schemas.customer import CustomerInput
 from app.schemas.day import Day, Times
 from app.schemas.errors import IN_PLACE, IN_WORDS
-from app.schemas.fairness import ChangeCostsInput, FairnessInput
+from app.schemas.fairness import ChangeCostsInput, ChangeLimitsInput, FairnessInput
 from app.schemas.fields import (
     LAUNCH_TEXT, LOCATION_INDEX_TEXT, LOCATION_TEXT, MAX_DEPOTS, MAX_LAUNCH_SITES, Approach, Count,
     Input, Instant, LocationIndex, Money, Name, PlaceLocation, Rounding, Table,
@@ -182,6 +182,8 @@ class OptionsInput(Input):
         None,
         description="What changes of the plan in `replan` cost. Null: nothing.",
     )
+    change_limits: ChangeLimitsInput = Field(
+        ChangeLimitsInput(), description="What of the plan in `replan` may change at all.")
 
 
 class LoadDimensionInput(Input):
@@ -237,6 +239,9 @@ class ReplanInput(Input):
         "`GET /dispatches/{id}/replan` has them. Planning doesn't look at it; the reply repeats "
         "those who are held to be served.",
     )
+    concerned: Annotated[list[Name], Field(max_length=MAX_VEHICLES)] = Field(
+        [], description="Vehicles whose routes may change where `options.change_limits.vehicles` "
+        "is `concerned`.")
     promised: Annotated[dict[Name, Instant], Field(max_length=MAX_CUSTOMERS)] = Field(
         {},
         description="When customers were told that they are reached, for "

@@ -92,9 +92,13 @@ class Screen:
         found: defaultdict[tuple[Vehicle, Means], list[Guess]] = defaultdict(list)
         routes = self._routes()
         trips = {vehicle: len(route.trips) for vehicle, route in routes.items()}
+        behind = {vehicle: self._past.room_behind(self._problem, route, self._node)
+                  for vehicle, route in routes.items()}
         on_trips = takewhile(lambda _: time.perf_counter() < until, self._on_trips(routes))
         alone = (self._alone(vehicle, number, is_new=vehicle not in trips)
-                 for vehicle, number in self._own_trips(trips) if self._wanted(vehicle))
+                 for vehicle, number in self._own_trips(trips) if self._wanted(vehicle)
+                 and number >= behind.get(vehicle, (0, 1))[0] + (
+                     behind.get(vehicle, (0, 1))[1] > 1))
         for guess in chain.from_iterable(chain(on_trips, alone)):
             found[guess.place.vehicle, guess.place.by].append(guess)
         for (vehicle, _), guesses in found.items():
@@ -110,13 +114,14 @@ class Screen:
             if not self._wanted(vehicle):
                 continue
             known = self._past.trips.get(vehicle, ())
+            behind = self._past.room_behind(self._problem, route, self._node)
             for number, trip in enumerate(route.trips):
-                if number < len(known) - 1 or (
+                if number < max(len(known) - 1, behind[0]) or (
                         number < len(known) and known[number].rest != "anything"):
                     continue
-                first_stop, first_flight = 1, 0
+                first_stop, first_flight = behind[1] if number == behind[0] else 1, 0
                 if number < len(known):
-                    first_stop = len(known[number].stops)
+                    first_stop = max(first_stop, len(known[number].stops))
                     first_flight = len(known[number].sorties)
                 yield self._on_trip(vehicle, number, trip, first_stop, first_flight)
 

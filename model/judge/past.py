@@ -8,6 +8,7 @@ the end.
 
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from functools import cached_property
 from typing import Literal, NamedTuple
 
 from model.judge.changes import EarlierPlan
@@ -80,6 +81,27 @@ class Past:
     orders: Mapping[Vehicle, tuple[int, ...]] = field(default_factory=dict)
     """Whom trucks served before, in their order, where pinned customers keep their places."""
     earlier: EarlierPlan | None = None  # what changes are counted from; None: they cost nothing
+    had: Mapping[Vehicle, frozenset[int]] = field(default_factory=dict)
+    """Whom vehicles served before, by first places, if who is new comes behind all these."""
+
+    @cached_property
+    def told(self) -> frozenset[int]:
+        """Whom any vehicle served before, if who is new comes behind these."""
+        return frozenset[int]().union(*self.had.values())
+
+    def room_behind(self, problem: Problem, route: Route, node: int) -> tuple[int, int]:
+        """Return the trip, and the stop of it, from which on somebody may come into a route."""
+        had = self.had.get(Vehicle(route.vehicle_type, route.vehicle), frozenset())
+        first = 0, 1
+        if not had or problem.first_place(node) in self.told:
+            return first
+        for number, trip in enumerate(route.trips):
+            ends = [(index, stop.node) for index, stop in enumerate(trip.stops)]
+            ends += [(sortie.recovery_stop, visit.node)
+                     for sortie in trip.sorties for visit in sortie.visits]
+            first = max([first, *((number, index + 1) for index, each in ends
+                                  if each >= 0 and problem.first_place(each) in had)])
+        return first
 
     def keepers(self) -> list[Vehicle]:
         """Return the vehicles whose customers cost something if others serve them."""

@@ -35,6 +35,7 @@ def _route_violations(problem: Problem, route: Route, past: Past, carriers: dict
     if vehicle in past.unavailable and len(route.trips) > len(known):
         yield Violation("UNAVAILABLE", f"does nothing more from {seconds(past.now)} on", path)
     yield from _order_violations(problem, route, past, vehicle, path)
+    yield from _behind_violations(problem, route, past, vehicle, path)
     for number, trip in enumerate(route.trips):
         trip_path = f"{path}.trips[{number}]"
         begun = known[number] if number < len(known) else None
@@ -90,6 +91,24 @@ def _order_violations(problem: Problem, route: Route, past: Past, vehicle: Vehic
             message = (f"{problem.customer_at(one.node).id} is served {order} "
                        f"{problem.customer_at(other.node).id}")
             yield Violation("ORDER", message, path)
+
+
+def _behind_violations(problem: Problem, route: Route, past: Past, vehicle: Vehicle,
+                       path: str) -> Iterator[Violation]:
+    """Yield the new ones that come before somebody whom their vehicle had before."""
+    had = past.had.get(vehicle)
+    if not had:
+        return
+    served = [(problem.first_place(each.node), each) for each in _served(route)
+              if problem.num_depots <= each.node < problem.num_nodes]
+    there = [each for node, each in served if node in had]
+    for node, one in served:
+        if node in past.told:
+            continue
+        before = next((other for other in there if one.precedes(other)), None)
+        if before is not None:
+            name, other = (problem.customer_at(each.node).id for each in (one, before))
+            yield Violation("ORDER", f"{name}, who is new, is served before {other}", path)
 
 
 class _Served(NamedTuple):

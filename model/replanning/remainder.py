@@ -58,6 +58,17 @@ class Remainder:
         return replace(self, problem=held_back(self.problem, {
             node: held[whole] for whole, node in self.numbers.items() if whole in held}))
 
+    def without(self, nodes: Collection[int]) -> "Remainder":
+        """Return what is left where nobody serves some of the whole's customers."""
+        if not nodes:
+            return self
+        problem = self.problem
+        table = (np.ones((len(self.kinds), len(self.nodes) - problem.num_depots), np.bool_)
+                 if problem.may_serve is None else problem.may_serve.copy())
+        table[:, [here - problem.num_depots for whole, here in self.numbers.items()
+                  if whole in nodes]] = False
+        return replace(self, problem=replace(problem, may_serve=table))
+
     def under_way(self, vehicle: Vehicle) -> int | None:
         """Return the type that is the rest of a vehicle's trip."""
         return self._find(vehicle, True)

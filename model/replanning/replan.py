@@ -4,8 +4,10 @@ import math
 import time
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
+from functools import cached_property
 from types import MappingProxyType
 
+from model.counsel.bench import Setting
 from model.counsel.explain import Reason, explain_type, unexplained
 from model.judge.changes import ChangePrices, EarlierPlan, PlanChanges, count_changes, earlier_plan
 from model.judge.chargers import with_charging
@@ -18,6 +20,7 @@ from model.planner import (
 )
 from model.problem import Problem
 from model.problem.altered import with_customers
+from model.replanning.behind import NewOrder, all_nodes, new_orders, put_behind
 from model.replanning.driven_on import as_it_stands, driven_on, going_through, kept_by
 from model.replanning.handover import hand_over, served_by, settled
 from model.replanning.kept import Kept, kept_routes
@@ -26,12 +29,15 @@ from model.replanning.order import by_order, orders_of
 from model.replanning.parted import parted_shipments, with_parted
 from model.replanning.reasons import barred_reason, bound_reasons
 from model.replanning.refusing import as_given, gone_from, refuse
-from model.replanning.remainder import what_is_left
+from model.replanning.remainder import held_back, what_is_left
 from model.replanning.searching import Bridge, begin, joined, relayed, searches
 from model.replanning.workers import find_workers
 from model.solution import Route, Solution, renumbered
 
 NOBODY_HELD: Mapping[int, int] = MappingProxyType({})
+
+SEARCHED = 0.6
+"""Share of the time limit that is searched, if new orders are put behind others then."""
 
 UNREADABLE = frozenset({"UNKNOWN_TYPE", "UNKNOWN_NODE", "DEPOT", "COUNT",
                         "SORTIE_STOPS", "UNREACHABLE", "PAIR"})
@@ -53,6 +59,9 @@ class Terms:
     prices: ChangePrices | None = None  # of changes; None: they cost nothing
     promised: Mapping[int, int] = field(default_factory=dict)
     """When customers were told that they are reached, in ms; others by the plan given."""
+    concerned: frozenset[Vehicle] | None = None
+    """Whose orders may change places alone; of others all stay. None: anybody's."""
+    behind: bool = False  # whether new orders come behind whom their vehicle had before
 
 
 class Replanning:
@@ -109,6 +118,11 @@ class Replanning:
         self.excused = tuple(item for item in broken if item.code not in PAST_RULES)
         """Rules that are broken already, which no plan can mend."""
 
+    @cached_property
+    def _new(self) -> list[NewOrder]:
+        """Orders that come behind all whom their vehicles had."""
+        return new_orders(self.problem, self.past)
+
     @property
     def kept(self) -> tuple[Kept, ...]:
         """What vehicles do in any case that have departed, in the order of a plan's routes."""
@@ -140,22 +154,18 @@ class Replanning:
         kept = self._kept if start is None else self._kept_of(start)
         if self.left is None:
             return self._nothing_left(plan, kept, options)
-        left = self.left.holding(held)
+        new = self._new if start is None else []
+        left = self.left.holding(held).without(all_nodes(new))
+        since = began if received_at is None else received_at
+        until = since + options.time_limit
+        if new:
+            options = replace(options, time_limit=SEARCHED * options.time_limit)
         bridge = Bridge(self.problem, self.past, plan, kept, left)
         handed = hand_over(self.problem, plan, kept, left)
         filled = begin(left, handed, options, listener.should_stop, bool(self.past.orders))
         first, begun, evaluation = self._beginning(bridge, handed, filled.solution)
-        solution, before = begun, evaluation
-        if not held:
-            solution, before = self._cheapest((begun, evaluation),
-                                              as_it_stands(self.problem, plan, kept))
-        # It takes a while in large plans, and would do no better where nobody is lost, and no
-        # truck waits for all its drones before it is planned on.
-        lost = self.problem.all_places(served_by(plan)).intersection(begun.unassigned)
-        if not held and (lost or _has_flights(self.past)):
-            solution, before = self._cheapest(
-                (solution, before), driven_on(self.problem, plan, kept, self.past))
-        known = solution, before
+        known = self._best_known(plan, kept, (begun, evaluation), bool(held))
+        before = known[1]
 
         def cost(plan: Solution) -> float:
             nonlocal known
@@ -168,9 +178,11 @@ class Replanning:
             return evaluation.cost.total
 
         relaying = relayed(listener, evaluation.cost.total, bridge)
-        since = began if received_at is None else received_at
         results = [each.find(planner, since, relaying, handed, first, cost)
                    for each in searches(left, self.past, first, options)]
+        if new:
+            known = put_behind(held_back(self.problem, held), Setting(self.past, self.excused),
+                               known, new, until)
         return joined(results, known, before.cost.total, filled.whole, began)
 
     def reasons(self, solution: Solution, node: int,
@@ -188,6 +200,20 @@ class Replanning:
         plan = self._later(solution)
         return tuple(self._reason(solution, plan, kind, node, until)
                      for kind in range(len(self.problem.vehicle_types)))
+
+    def _best_known(self, plan: Solution, kept: Mapping[Vehicle, Kept],
+                    begun: tuple[Solution, Evaluation],
+                    is_held: bool) -> tuple[Solution, Evaluation]:
+        """Return the cheapest plan before any search: as begun, or as the one given goes on."""
+        if is_held:
+            return begun
+        known = self._cheapest(begun, as_it_stands(self.problem, plan, kept))
+        # It takes a while in large plans, and would do no better where nobody is lost, and no
+        # truck waits for all its drones before it is planned on.
+        lost = self.problem.all_places(served_by(plan)).intersection(begun[0].unassigned)
+        if lost or _has_flights(self.past):
+            known = self._cheapest(known, driven_on(self.problem, plan, kept, self.past))
+        return known
 
     def _beginning(self, bridge: Bridge, handed: Solution,
                    first: Solution) -> tuple[Solution, Solution, Evaluation]:
@@ -280,17 +306,29 @@ def _past(problem: Problem, terms: Terms) -> Past:
     known = {}
     if terms.now is not None:
         known = known_trips(problem, terms.plan, terms.now, terms.unavailable)
-    pinned = {node: Vehicle(route.vehicle_type, route.vehicle)
-              for route in terms.plan.routes for trip in route.trips
-              for node in (*(stop.node for stop in trip.customer_stops),
-                           *(visit.node for sortie in trip.sorties for visit in sortie.visits))
-              if node in terms.pinned
-              and (route.vehicle_type, route.vehicle) not in terms.unavailable}
-    orders = orders_of(terms.plan) if terms.keeps_order and pinned else {}
+    there = {node: Vehicle(route.vehicle_type, route.vehicle)
+             for route in terms.plan.routes for trip in route.trips
+             for node in (*(stop.node for stop in trip.customer_stops),
+                          *(visit.node for sortie in trip.sorties for visit in sortie.visits))
+             if node >= 0 and (route.vehicle_type, route.vehicle) not in terms.unavailable}
+    pinned = {node: vehicle for node, vehicle in there.items() if node in terms.pinned
+              or (terms.concerned is not None and _may_serve(problem, vehicle, node))}
+    orders = {}
+    if pinned and (terms.keeps_order or terms.concerned is not None):
+        orders = {vehicle: order for vehicle, order in orders_of(terms.plan).items()
+                  if terms.keeps_order or vehicle not in (terms.concerned or ())}
+    had: dict[Vehicle, frozenset[int]] = {}
+    for node, vehicle in there.items() if terms.behind else ():
+        had[vehicle] = had.get(vehicle, frozenset()) | {problem.first_place(node)}
     grounded = {vehicle: drones for vehicle, drones in terms.grounded.items()
                 if vehicle not in terms.unavailable}
     return Past(terms.now or 0, known, terms.unavailable, grounded,
-                problem.at_all_places(pinned), orders=orders)
+                problem.at_all_places(pinned), orders=orders, had=had)
+
+
+def _may_serve(problem: Problem, vehicle: Vehicle, node: int) -> bool:
+    table = problem.may_serve
+    return table is None or bool(table[vehicle.type, node - problem.num_depots])
 
 
 def _has_flights(past: Past) -> bool:

@@ -124,7 +124,8 @@ def searches(left: Remainder, past: Past, first: Solution,
     """
     limit, turns, here = options.time_limit, options.search_iterations, left.numbers
     if past.orders:
-        pinned = {here[node] for node in past.pinned if node in here}
+        pinned = {here[node] for node, vehicle in past.pinned.items()
+                  if node in here and vehicle in past.orders}
         orders = [[here[node] for node in order if node in here]
                   for order in past.orders.values()]
         yield SearchOfRest(left, in_order(left.problem, first, pinned, orders), options)

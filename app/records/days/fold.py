@@ -19,6 +19,10 @@ CLIENTS = frozenset({
     "vehicle.position", "drone.launched", "drone.recovered", "drone.lost", "clock"})
 """Kinds of events that clients and drivers tell; others are the service's own."""
 
+TOUCHING = frozenset({"order.changed", "order.cancelled", "order.pinned", "vehicle.failed",
+                      "vehicle.broken", "vehicle.delayed", "drone.lost"})
+"""Kinds that ask for another plan of an order or a vehicle."""
+
 KINDS = (*sorted(CLIENTS), PLAN_SEEN, "day.begun", "plan.changed", "eta.changed", "order.at_risk")
 
 
@@ -53,6 +57,8 @@ class ToldDay:
     sighted: dict[str, LoggedEvent] = field(default_factory=dict)  # last, by vehicle
     told_at: dict[str, int] = field(default_factory=dict)  # by vehicle, milliseconds since 1970
     pins: dict[str, Pin] = field(default_factory=dict)  # by order, the last one last
+    touched: dict[str, int] = field(default_factory=dict)
+    """Number of the last event that asks for another plan of an order or a vehicle, by its name."""
     clock: int | None = None  # the latest time, of a day that goes by what it is told
     etas: dict[str, float] = field(default_factory=dict)  # that were told, by order
     at_risk: dict[str, Data] = field(default_factory=dict)  # what was told of orders
@@ -119,6 +125,10 @@ def _take(told: ToldDay, event: LoggedEvent) -> None:
         told.at_risk.pop(about["order"], None)
         if about["at_risk"]:
             told.at_risk[about["order"]] = about
+    if event.kind in TOUCHING:
+        order = about.get("customer") or about.get("shipment") or {"id": about.get("order")}
+        told.touched |= dict.fromkeys([name for name in (event.vehicle, order["id"]) if name],
+                                      event.number)
     if event.vehicle is not None and event.kind in CLIENTS and event.kind != "order.pinned":
         told.told_at[event.vehicle] = event.time
 

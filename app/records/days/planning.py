@@ -1,10 +1,10 @@
 """How a day stands -> the request of its next plan."""
 
 import re
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from typing import Any
 
-from app.records.days.fold import Data, ToldDay
+from app.records.days.fold import Data, ToldDay, visits
 from app.records.days.pins import pinned
 from app.records.days.rows import Begun
 from app.records.days.sighting import late_by_position
@@ -15,9 +15,9 @@ from app.records.dispatches.steps import stop_ids
 from app.schemas.errors import InputError
 from app.schemas.plan import PlanInput, RouteInput, StopInput
 
-SEARCHING, LEAST_SEARCHING = 0.3, 0.1
-"""Share of the time from an event to its plan that is searched, since an event that comes while a
-plan is made waits for that first; and the fewest seconds."""
+MAKING, SEARCHING, LEAST_SEARCHING = 0.5, 0.3, 0.1
+"""Shares of the time from an event to its plan in which one is made, since an event that comes
+meanwhile waits for that first, and in which it is searched; and the fewest seconds of that."""
 
 NOBODY = PlanInput(routes=())
 
@@ -26,7 +26,7 @@ _STEP = re.compile(r"\.(\w+)|\[(\d+)\]")
 
 def asked(begun: Begun, told: ToldDay, plan: PlanInput | None,
           steps: Mapping[str, Sequence[StepReply]], now: float, seen: int,
-          kept: Collection[str] = ()) -> Data:
+          kept: Collection[str] = (), beside: float = 0.0) -> Data:
     """Return the request of `POST /plan` that goes on from a day's plan.
 
     Parameters
@@ -45,11 +45,13 @@ def asked(begun: Begun, told: ToldDay, plan: PlanInput | None,
         Number of the last event that the plan counts with.
     kept
         Orders that stay although they were cancelled, as a vehicle is on its way to them.
+    beside
+        Seconds that the plan before took beside its search.
     """
     within = begun.terms.plan_within
     options = {**begun.problem.get("options", {}), "times": "seconds"}
-    options["time_limit"] = min(options.get("time_limit", within),
-                                max(LEAST_SEARCHING, SEARCHING * within))
+    options["time_limit"] = min(options.get("time_limit", within), max(
+        LEAST_SEARCHING, min(SEARCHING * within, MAKING * within - beside)))
     options["lateness_risk"] = risk_of(begun, told)
     request = {**begun.problem, "options": options}
     failed: dict[str, float] = {}
@@ -57,12 +59,14 @@ def asked(begun: Begun, told: ToldDay, plan: PlanInput | None,
         given = begun.problem.get("replan") or {"plan": {"routes": []}}
         replan: Data = {"plan": given["plan"], "freeze_before": now}
     else:
-        late = delayed(plan, told, seen, late_by_position(begun, told, plan, seen))
+        sighted = late_by_position(begun, told, plan, seen)
+        late = delayed(plan, told, seen, sighted)
         vehicles = {route.vehicle: OnTheRoad(steps.get(route.vehicle, ()),
                                              told.standings.get(route.vehicle, {}))
                     for route in late.routes}
         going = going_on(late, vehicles, now)
         replan = dict(going.replan)
+        replan["concerned"] = sorted({*sighted, *_concerned(plan, told, seen)})
         failed = {each.customer: each.parcel_back for each in going.failed if each.is_open}
     if options.get("change_costs"):
         replan["promised"] = told.etas
@@ -76,6 +80,13 @@ def asked(begun: Begun, told: ToldDay, plan: PlanInput | None,
         request[name] = [_released(each, failed.get(order))
                          for order, each in {**wanted, **back}.items()]
     return pinned(request, told, plan or NOBODY, now) if told.pins else request
+
+
+def _concerned(plan: PlanInput, told: ToldDay, seen: int) -> Iterator[str]:
+    """Yield the vehicles of which, or of whose orders, something else was told than planned."""
+    for order, vehicle, _ in visits(plan):
+        if max(told.touched.get(name, 0) for name in (vehicle, order.partition("/")[0])) > seen:
+            yield vehicle
 
 
 def _released(order: Data, at: float | None) -> Data:

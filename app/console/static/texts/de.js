@@ -1172,6 +1172,9 @@ export default {
     reserve: 'Reserve',
     revisits: 'Kommt zurück',
     change_costs: 'Kosten von Änderungen',
+    change_limits: 'Was sich ändern darf',
+    concerned: 'Betroffene Fahrzeuge',
+    new_orders: 'Neue Aufträge',
     cost_per_expected_late_hour: 'Kosten einer zu erwartenden Stunde Verspätung',
     lateness_risk: 'Verspätungsrisiko',
     position: 'Anderer Platz',
@@ -1620,12 +1623,17 @@ export default {
       times: 'Wie mitgenommene Dateien Zeiten angeben.',
       geometry: 'Ob Pläne die Linien enthalten, die Karten zeichnen.',
       change_costs: 'Was es kostet, einen Plan zu ändern, von dem weitergeplant wird. Leer: nichts.',
+      change_limits: 'Was sich an einem Plan, von dem weitergeplant wird, überhaupt ändern darf.',
       lateness_risk: 'Wie weit Zeiten abweichen, damit Pläne sagen, wer sich verspäten kann. Leer: nichts davon.',
     },
     ChangeCostsInput: {
       vehicle: 'Was jeder Auftrag kostet, den ein anderes Fahrzeug bedient als bisher.',
       position: 'Was jeder Auftrag kostet, der auf seiner Tour den Platz wechselt.',
       promise_per_minute: 'Was jede Minute kostet, um die ein Auftrag früher oder später bedient wird als versprochen.',
+    },
+    ChangeLimitsInput: {
+      new_orders: 'Ob neue Aufträge überall auf einer Tour liegen dürfen, oder nur hinter allen, die ihr Fahrzeug hatte.',
+      vehicles: 'Ob Aufträge jedes Fahrzeugs sich verschieben dürfen, oder nur die von Fahrzeugen, zu denen etwas gemeldet wurde, auf deren Touren.',
     },
     LatenessRiskInput: {
       spread: 'Wie weit Zeiten von den geplanten abweichen: Standardabweichung durch Mittel.',

@@ -1158,6 +1158,9 @@ export default {
     reserve: 'Reserve',
     revisits: 'Revisits',
     change_costs: 'Cost of changes',
+    change_limits: 'What may change',
+    concerned: 'Vehicles concerned',
+    new_orders: 'New orders',
     cost_per_expected_late_hour: 'Cost of an hour late to be expected',
     lateness_risk: 'Risk of lateness',
     position: 'Another place',
@@ -1597,12 +1600,17 @@ export default {
       times: 'How the files that you take away tell times.',
       geometry: 'Whether plans have the lines that maps draw.',
       change_costs: 'What it costs to change a plan that is gone on from. Empty: nothing.',
+      change_limits: 'What may change at all of a plan that is gone on from.',
       lateness_risk: 'How far times are off, so that plans tell who may be late. Empty: not told.',
     },
     ChangeCostsInput: {
       vehicle: 'What each order costs that another vehicle serves than before.',
       position: 'What each order costs that changes places in its route.',
       promise_per_minute: 'What each minute costs by which an order comes sooner or later than promised.',
+    },
+    ChangeLimitsInput: {
+      new_orders: 'Whether new orders may come anywhere in a route, or only behind all whom its vehicle had.',
+      vehicles: 'Whether orders of any vehicle may move, or only those of vehicles of which something was told, within their routes.',
     },
     LatenessRiskInput: {
       spread: 'How far times are off the planned ones: the standard deviation by the mean.',

@@ -98,3 +98,35 @@ def test_pins_of_what_is_not_there_are_refused(service: httpx.Client, stated: di
     day = begun(service)
     reply = service.post(f"/days/{day}/events", json=[{"event_id": "e", "at": 1} | stated])
     assert (reply.status_code, reply.json()["errors"][0]["path"]) == (422, path), reply.text
+
+
+@pytest.mark.slow
+def test_new_orders_come_behind_all_that_drivers_were_told(service: httpx.Client) -> None:
+    day = begun(service, ROOMY | {"options": {"change_limits": {"new_orders": "behind"}}})
+    told(service, day, clock(), order("G", 1, 0), order("H", -1, 0), at=10)
+    plan = plan_of(service, day)
+    assert {"G", "H"} <= set(served_by(plan))
+    for van in VANS:
+        is_new = [name in {"G", "H"} for name in tour(plan, van)]
+        assert is_new == sorted(is_new)
+
+
+@pytest.mark.slow
+def test_only_routes_of_vehicles_change_of_which_something_was_told(
+        service: httpx.Client) -> None:
+    day = begun(service, PROBLEM | {"options": {"change_limits": {"vehicles": "concerned"}}})
+    before = plan_of(service, day)
+    one = served_by(before)["A"]
+    changed = {**PROBLEM["customers"][0], "location": [9, 0]}
+    told(service, day, clock(), {"kind": "order.changed", "customer": changed},
+         order("G", 1, 0), at=10)
+    plan = plan_of(service, day)
+    for van in VANS:
+        stays = [name for name in tour(plan, van) if name != "G"]
+        assert (sorted(stays) if van == one else stays) == (
+            sorted(tour(before, van)) if van == one else tour(before, van))
+    assert "G" in served_by(plan)
+    # Whoever is settled by hand moves all the same.
+    other = next(van for van in VANS if van != one)
+    told(service, day, pin("B", other), at=20)
+    assert served_by(plan_of(service, day))["B"] == other
