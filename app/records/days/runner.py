@@ -19,6 +19,7 @@ from sqlalchemy.exc import SQLAlchemyError
 from app.maps.roads.roads import Roads
 from app.plans.flights.answering import flights_by_vehicle
 from app.records.clock import now_ms
+from app.records.days.departures import Departures
 from app.records.days.fold import ToldDay, fold
 from app.records.days.news import names_of, news_of
 from app.records.days.planning import asked, too_late
@@ -58,6 +59,9 @@ MAX_DEATHS = 3
 
 MENDING = 0.5
 """Share of the time to a plan after which no remedy for an order at risk is looked for."""
+
+DUE = 1.0
+"""Seconds between two looks for days of which a departure has come due."""
 
 RETRY = 1.0
 """Seconds between two looks while the database can't be reached."""
@@ -101,6 +105,9 @@ class DayRunner:
         self._stopping = threading.Event()
         self._told = threading.Event()
         self._by = str(uuid.uuid4())
+        self._beside: dict[str, float] = {}  # seconds that a day's last plan took unsearched
+        self._departures = Departures(self._store)
+        self._due_at = 0.0  # when it is looked for them, on `time.monotonic`
         self._deaths = Counter[tuple[str, int]]()  # by day and number of the last event
         self._free = threading.Semaphore(AT_ONCE)
         self._pool = ThreadPoolExecutor(AT_ONCE, thread_name_prefix="day")
@@ -126,7 +133,7 @@ class DayRunner:
         while not self._stopping.is_set():
             self._free.acquire()
             try:
-                day = self._store.claim(self._by, LEASE) if self._is_prepared() else None
+                day = self._claimed() if self._is_prepared() else None
             except SQLAlchemyError as error:
                 logger.warning("days can't be planned: %s", type(error).__name__)
                 day = None
@@ -137,6 +144,13 @@ class DayRunner:
                 self._told.clear()
             else:
                 self._pool.submit(self._planned, day)
+
+    def _claimed(self) -> DayRow | None:
+        """Return a day to be planned; some are told the time first. In place."""
+        if time.monotonic() >= self._due_at:
+            self._due_at = time.monotonic() + DUE
+            self._departures.tell(now_ms())
+        return self._store.claim(self._by, LEASE)
 
     def _planned(self, day: DayRow) -> None:
         """Plan a day that is this process's. In place."""
@@ -167,6 +181,7 @@ class DayRunner:
                 and self._deaths[day.id, day.asked] < MAX_DEATHS)
 
     def _make(self, day: DayRow) -> None:
+        began = time.monotonic()
         begun = self._store.begun(day.id)
         until = time.monotonic() + MENDING * begun.terms.plan_within
         log = [event for event in self._store.log(day.id) if event.number <= day.revision]
@@ -194,6 +209,7 @@ class DayRunner:
                            order, from_json(wanted), from_json(reply), now, self._quote))
         self._store.publish(self._with_end(day, plan), self._by, reply, work, rows,
                             partial(self._announced, day, begun.terms.webhook, rows))
+        self._beside[day.id] = time.monotonic() - began - problem.options.time_limit
 
     def _announced(self, day: DayRow, webhook: str | None, news: Sequence[ToldRow],
                    connection: Connection) -> None:
@@ -208,7 +224,8 @@ class DayRunner:
         steps = self._dispatches.steps_by_vehicle(day.id)
         kept: set[str] = set()
         while True:
-            wanted = asked(begun, told, before, steps, now, day.planned, kept)
+            wanted = asked(begun, told, before, steps, now, day.planned, kept,
+                           self._beside.get(day.id, 0.0))
             body = to_json(wanted)
             try:
                 return body, self._plan(body, self._renewing(day))

@@ -80,8 +80,8 @@ class DayStore:
         with self._engine.connect() as connection:
             return [LoggedEvent(*row) for row in connection.execute(statement)]
 
-    def append(self, day: str, events: Sequence[ToldRow],
-               refuse: Callable[[int], None]) -> None:
+    def append(self, day: str, events: Sequence[ToldRow], refuse: Callable[[int], None],
+               origin: str = BY_CLIENT) -> None:
         """Keep events that aren't there yet, unless `refuse` raises. In place.
 
         `refuse` is told how many the day would have.
@@ -89,16 +89,31 @@ class DayStore:
         names = [event.id for event in events]
         with self._engine.begin() as connection:
             revision = revision_of(connection, DAYS.c.id == day) or 0
-            there = _numbers(connection, day, names)
+            there = _numbers(connection, day, names, origin)
             new = {event.id: event for event in events if event.id not in there}
             refuse(revision + len(new))
             if new:
-                add_events(connection, day, revision, BY_CLIENT, list(new.values()))
+                add_events(connection, day, revision, origin, list(new.values()))
 
     def numbers(self, day: str, names: Collection[str]) -> dict[str, int]:
         """Return the numbers of events that clients told, by name."""
         with self._engine.connect() as connection:
             return _numbers(connection, day, names)
+
+    def planned_by(self, now: int) -> dict[str, int]:
+        """Return when days began that are planned and not over, in milliseconds since 1970."""
+        statement = select(DAYS.c.id, DAYS.c.plan_start).where(
+            DAYS.c.request.is_not(None), DAYS.c.plan_number > 0, DAYS.c.plan_start <= now,
+            DAYS.c.ends_at > now)
+        with self._engine.connect() as connection:
+            return dict(connection.execute(statement).all())
+
+    def planned_at(self, day: str) -> int:
+        """Return the time by which a day's last plan was made, in milliseconds since 1970."""
+        statement = select(func.max(EVENTS.c.time)).where(
+            EVENTS.c.day == day, EVENTS.c.kind == "plan.changed")
+        with self._engine.connect() as connection:
+            return connection.scalar(statement) or 0
 
     def claim(self, by: str, seconds: float) -> DayRow | None:
         """Return a day whose plan doesn't count with all that was told, to be planned by one.
@@ -186,6 +201,7 @@ def _held(connection: Connection, day: str, by: str) -> int | None:
     return revision_of(connection, (DAYS.c.id == day) & (DAYS.c.lease_by == by))
 
 
-def _numbers(connection: Connection, day: str, names: Collection[str]) -> dict[str, int]:
+def _numbers(connection: Connection, day: str, names: Collection[str],
+             origin: str = BY_CLIENT) -> dict[str, int]:
     return dict(connection.execute(select(EVENTS.c.id, EVENTS.c.number).where(
-        EVENTS.c.day == day, EVENTS.c.origin == BY_CLIENT, EVENTS.c.id.in_(names))).all())
+        EVENTS.c.day == day, EVENTS.c.origin == origin, EVENTS.c.id.in_(names))).all())
