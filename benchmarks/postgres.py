@@ -4,15 +4,32 @@ import os
 import shutil
 import socket
 import subprocess
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from dataclasses import dataclass
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
 
+@dataclass(frozen=True)
+class Server:
+    """A server that may be away for a while."""
+
+    url: str
+    start: Callable[[], None]
+    stop: Callable[[], None]
+
+
 @contextmanager
 def running_postgres() -> Iterator[str]:
-    """Yield the URL of an empty database, which writes to disk as one that is not to be lost.
+    """Yield the URL of an empty database; raises as `postgres_server` does."""
+    with postgres_server() as server:
+        yield server.url
+
+
+@contextmanager
+def postgres_server() -> Iterator[Server]:
+    """Yield a server with an empty database, which writes to disk as one not to be lost.
 
     Raises
     ------
@@ -37,10 +54,16 @@ def running_postgres() -> Iterator[str]:
                 command = ["runuser", "-u", "postgres", "--", *command]
             subprocess.run(command, check=True, cwd=folder, stdout=subprocess.DEVNULL)
 
-        run("initdb", "--auth=trust", "--username=tandem", "--encoding=UTF8")
-        run("pg_ctl", "--wait", f"--log={folder}/log.txt", "start",
-            f"--options=-p {port} -c listen_addresses=127.0.0.1 -k {folder}")
-        try:
-            yield f"postgresql://tandem@127.0.0.1:{port}/postgres"
-        finally:
+        def start() -> None:
+            run("pg_ctl", "--wait", f"--log={folder}/log.txt", "start",
+                f"--options=-p {port} -c listen_addresses=127.0.0.1 -k {folder}")
+
+        def stop() -> None:
             run("pg_ctl", "--wait", "--mode=fast", "stop")
+
+        run("initdb", "--auth=trust", "--username=tandem", "--encoding=UTF8")
+        start()
+        try:
+            yield Server(f"postgresql://tandem@127.0.0.1:{port}/postgres", start, stop)
+        finally:
+            stop()
