@@ -15,9 +15,13 @@ from app.records.dispatches.steps import stop_ids
 from app.schemas.errors import InputError
 from app.schemas.plan import PlanInput, RouteInput, StopInput
 
-MAKING, SEARCHING, LEAST_SEARCHING = 0.5, 0.3, 0.1
+MAKING, SEARCHING = 0.5, 0.3
 """Shares of the time from an event to its plan in which one is made, since an event that comes
-meanwhile waits for that first, and in which it is searched; and the fewest seconds of that."""
+meanwhile waits for that first, and in which it is searched."""
+
+LEAST_SHARE, LEAST_SEARCHING, EACH = 0.15, 0.1, 2e-4
+"""The least that is searched where what is beside takes long: a share of the time, and seconds, of
+all and for each order, without which a plan of many is refused."""
 
 NOBODY = PlanInput(routes=())
 
@@ -50,8 +54,8 @@ def asked(begun: Begun, told: ToldDay, plan: PlanInput | None,
     """
     within = begun.terms.plan_within
     options = {**begun.problem.get("options", {}), "times": "seconds"}
-    options["time_limit"] = min(options.get("time_limit", within), max(
-        LEAST_SEARCHING, min(SEARCHING * within, MAKING * within - beside)))
+    options["time_limit"] = min(options.get("time_limit", within), _search_time(
+        within, beside, len(told.customers) + len(told.shipments)))
     options["lateness_risk"] = risk_of(begun, told)
     request = {**begun.problem, "options": options}
     failed: dict[str, float] = {}
@@ -80,6 +84,12 @@ def asked(begun: Begun, told: ToldDay, plan: PlanInput | None,
         request[name] = [_released(each, failed.get(order))
                          for order, each in {**wanted, **back}.items()]
     return pinned(request, told, plan or NOBODY, now) if told.pins else request
+
+
+def _search_time(within: float, beside: float, orders: int) -> float:
+    """Return how many seconds of the time from an event to its plan are searched."""
+    least = max(LEAST_SHARE * within, EACH * orders)
+    return max(LEAST_SEARCHING, min(SEARCHING * within, max(least, MAKING * within - beside)))
 
 
 def _concerned(plan: PlanInput, told: ToldDay, seen: int) -> Iterator[str]:

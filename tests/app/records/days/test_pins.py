@@ -114,7 +114,8 @@ def test_new_orders_come_behind_all_that_drivers_were_told(service: httpx.Client
 @pytest.mark.slow
 def test_only_routes_of_vehicles_change_of_which_something_was_told(
         service: httpx.Client) -> None:
-    day = begun(service, PROBLEM | {"options": {"change_limits": {"vehicles": "concerned"}}})
+    day = begun(service, PROBLEM | {"options": {
+        "search_iterations": 1200, "change_limits": {"vehicles": "concerned"}}}, plan_within=30)
     before = plan_of(service, day)
     one = served_by(before)["A"]
     changed = {**PROBLEM["customers"][0], "location": [9, 0]}
