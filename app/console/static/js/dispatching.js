@@ -144,8 +144,9 @@ async function poll() {
   const { dispatch } = store.get();
   if (!dispatch) return;
   try {
-    if (!document.hidden) keep(dispatch.made, await api.getDispatch(dispatch.reply.id));
-    else timer = setTimeout(poll, POLL_MS);
+    const reply = document.hidden ? dispatch.reply : await api.getDispatch(dispatch.reply.id);
+    // What was changed meanwhile is newer, and may have made links that are told once.
+    if (store.get().dispatch === dispatch) keep(dispatch.made, reply);
   } catch (error) {
     // An outage passes; what can't be mended is told.
     if (error.status === 0 || error.status >= 500) timer = setTimeout(poll, POLL_MS);
