@@ -7,11 +7,13 @@ import httpx
 import pytest
 from playwright.sync_api import Page, expect
 
-from tests.app.records.days.living import PROBLEM, begun, order, standing, told
+from tests.app.records.days.living import (
+    PROBLEM, begun, order, plan_of, planned, served_by, standing, told,
+)
 from tests.app.records.days.test_lateness import FAR
 from tests.console.test_everyone import findings
 from tests.console.steps import open_tab, place_of, state
-from tests.conftest import PATIENCE
+from tests.conftest import PATIENCE, eventually
 
 pytestmark = pytest.mark.slow
 
@@ -109,6 +111,44 @@ def test_what_is_not_told_yet_is_undone_and_told_with_one_click(
     tell.click()
     expect(tell).to_have_count(0)
     assert {each.id for each in standing(client, day).orders} == set("ABCDEG")
+
+
+def test_what_is_put_elsewhere_by_hand_is_told_and_kept_until_it_is_let_go(
+        client: httpx.Client, service: str, open_page: Callable[..., Page]) -> None:
+    day = begun(client, {**PROBLEM, "fleet": [{**PROBLEM["fleet"][0], "capacity": [9]}]})
+    page = open_page(f"{service}/#day={day}")
+    expect(page.get_by_role("timer")).to_be_visible()
+    tell = page.locator("#tell-edits")
+    other = given(page, "A")
+    expect(page.locator("#hand-outcome")).to_contain_text(f"A to {other}")
+    expect(tell).to_contain_text("Tell")
+    assert findings(page, ".head") == []
+    # What others tell meanwhile takes nothing of it away; nor does it hinder undoing.
+    told(client, day, order("G", 1, 1), at=10)
+    expect(page.locator(".map-label.news.new")).to_have_count(1)
+    page.keyboard.press("Control+z")
+    expect(tell).to_have_count(0)
+    other = given(page, "A")
+    tell.click()
+    expect(tell).to_have_count(0)
+    expect(page.locator(".hand-bar")).to_be_empty()
+    assert served_by(plan_of(client, planned(client, day).id))["A"] == other
+    told(client, day, order("H", 2, 1), at=20)
+    assert served_by(plan_of(client, day))["A"] == other
+    page.get_by_role("group", name="Move A").get_by_role("button", name="Locked").click()
+    eventually(lambda: all(each.pinned is None for each in standing(client, day).orders
+                           if each.id == "A"))
+
+
+def given(page: Page, name: str) -> str:
+    """Give an order to another vehicle by hand, and return which."""
+    open_tab(page, "routes")
+    choice = page.get_by_label(f"Give {name} to")
+    if not choice.is_visible():
+        page.get_by_role("button", name=name, exact=True).first.click()
+    other = choice.locator("option").last.inner_text()
+    choice.select_option(label=other)
+    return other.partition(" ")[0]
 
 
 def test_wall_shows_the_day_without_a_panel_to_work_in(

@@ -1,8 +1,9 @@
 import assert from 'node:assert/strict';
 import test from 'node:test';
+import { indexPlan } from '../../../app/console/static/js/core/plan.js';
 import {
-  changesOf, doubtsOf, lateInWords, lateOf, liveRemedyInWords, remedyFor, sightingsOf, slotsFor,
-  untoldOf, waitingOf, withUntold,
+  changesOf, doubtsOf, lateInWords, lateOf, liveRemedyInWords, locksOf, pinsOf, remedyFor, sightingsOf,
+  slotsFor, untoldOf, waitingOf, withUntold,
 } from '../../../app/console/static/js/core/living.js';
 
 const customer = (id, more = {}) => ({ id, location: [0, 0], demand: [1], ...more });
@@ -84,4 +85,27 @@ test('slots are those ahead, unless one was asked for', () => {
     [{ earliest: 1, latest: 2 }]);
   assert.deepEqual(slotsFor(BASE, {}, 35000, 40000), [{ earliest: 35000 },
     { earliest: 36000, latest: 43200 }]);
+});
+
+test('where orders were put by hand is told by who they are between', () => {
+  const at = (name, second) => ({ kind: 'customer', id: name, arrival: second,
+    service_start: second, departure: second });
+  const hub = (second) => ({ kind: 'depot', id: 'hub', arrival: second, departure: second });
+  const request = { depots: [{ id: 'hub', location: [0, 0] }], fleet: [{ id: 'van', count: 2 }],
+    customers: ['A', 'B', 'C', 'D'].map((id) => customer(id)) };
+  const plan = { unassigned: [], summary: { trips: 2 }, cost: { total: 0 }, routes: [
+    { vehicle: 'van-1', type: 'van', trips: [{
+      stops: [hub(0), at('C', 1), at('A', 2), at('B', 3), hub(4)], sorties: [] }] },
+    { vehicle: 'van-2', type: 'van', trips: [{ stops: [hub(0), at('D', 1), hub(2)], sorties: [] }] },
+  ] };
+  const index = indexPlan(request, plan, new Map());
+  const pin = (order, vehicle, after) => ({ kind: 'order.pinned', order, vehicle,
+    ...(after && { after }) });
+  assert.deepEqual(pinsOf(index, ['C']), [pin('C', 'van-1'), pin('A', 'van-1', 'C')]);
+  assert.deepEqual(pinsOf(index, ['A', 'A', 'gone']),
+    [pin('A', 'van-1', 'C'), pin('B', 'van-1', 'A')]);
+  assert.deepEqual(pinsOf(index, ['D']), [pin('D', 'van-2')]);
+  assert.deepEqual(locksOf(index, ['A', 'D'], true), [pin('A', 'van-1'), pin('D', 'van-2')]);
+  assert.deepEqual(locksOf(index, ['A'], false),
+    [{ kind: 'order.pinned', order: 'A', undone: true }]);
 });

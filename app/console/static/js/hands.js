@@ -30,6 +30,7 @@ export const moveCustomerTo = (id, place, words) =>
   change((entry) => ({
     request: entry.request,
     decided: withCustomerAt(entry.request, entry.plan, id, place),
+    moved: place ? [id] : [],
     words,
   }));
 
@@ -50,6 +51,7 @@ export const takeFit = (fit, place) =>
       request,
       added: isNew ? fit.customer : null,
       decided: withRoute(entry.plan, names, place.route),
+      moved: names,
       words: t('hand.to', { id: [id, ...along].join(', '), vehicle: nameOfVehicle(place.vehicle) }),
     };
   });
@@ -65,13 +67,13 @@ function change(decide) {
   return work;
 }
 
-async function judge(entry, { request, decided, added = null, words }) {
+async function judge(entry, { request, decided, moved, added = null, words }) {
   store.set({ judging: words });
   try {
     const problem = { ...request, options: { ...request.options, geometry: true } };
     const verdict = await api.postCheck({ problem, plan: decided });
     store.set((state) => applied(state, entry, {
-      request, added, words, verdict, plan: judgedPlan(entry.plan, decided, verdict),
+      request, added, moved, words, verdict, plan: judgedPlan(entry.plan, decided, verdict),
     }));
   } finally {
     store.set({ judging: null });
@@ -79,8 +81,8 @@ async function judge(entry, { request, decided, added = null, words }) {
 }
 
 /** Return what changes once a change is judged; nothing if the plan is no longer there. */
-function applied(state, entry, { request, added, words, verdict, plan }) {
-  if (!state.plans.includes(entry)) return {};
+function applied(state, entry, { request, added, moved, words, verdict, plan }) {
+  if (state.plans.every((other) => other.plan !== entry.plan)) return {};
   const { hand } = entry;
   const after = {
     ...entry,
@@ -96,10 +98,12 @@ function applied(state, entry, { request, added, words, verdict, plan }) {
       change: trueCost({ request, plan }) - trueCost(entry),
       penalty: penaltyOf({ request, plan }) - penaltyOf(entry),
       violations: verdict.violations,
+      moved: [...(hand?.moved ?? []), ...moved],
       words,
     },
   };
-  const now = requestWith(state.request, entry.request, request, added);
+  const now = state.live && !added ? state.request
+    : requestWith(state.request, entry.request, request, added);
   const step = {
     before: { entry: hand ? entry : null, shown: state.shown, besides: state.besides,
       request: state.request },
@@ -136,8 +140,11 @@ function requestWith(edited, planned, request, added) {
 }
 
 /** Return the state with one side of a step. */
-function swapped({ plans }, step, side) {
-  const { entry, shown, besides, request } = step[side];
+function swapped({ plans, live, request: told }, step, side) {
+  const { entry, shown, besides } = step[side];
+  // What a day was told meanwhile stays.
+  const isAsTold = live && step.before.request === step.after.request;
+  const request = isAsTold ? told : step[side].request;
   const { number } = step.after.entry;
   const others = plans.filter((other) => other.number !== number);
   return { plans: entry ? [...others, entry] : others, shown, besides, request };
@@ -148,7 +155,8 @@ function stands(state, step, side) {
   if (!step) return false;
   const { entry, shown, request } = step[side];
   const plan = (entry ?? shownPlan(state))?.plan;
-  return state.request === request && state.shown === shown && shownPlan(state)?.plan === plan;
+  return (state.live || state.request === request) && state.shown === shown
+    && shownPlan(state)?.plan === plan;
 }
 
 /** Return the last change by hand that may be taken back. */

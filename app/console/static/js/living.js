@@ -3,10 +3,11 @@
 import { indexOf, openRequest, shownPlan, showFailure } from './actions.js';
 import * as api from './api.js';
 import { dayOf } from './core/dispatches.js';
-import { changesOf, newsOf, untoldOf, withUntold } from './core/living.js';
+import { changesOf, locksOf, newsOf, pinsOf, untoldOf, withUntold } from './core/living.js';
 import { numbersOf } from './core/plan.js';
 import { inSeconds } from './core/times.js';
 import { followDispatch } from './dispatching.js';
+import { setLocked } from './hands.js';
 import { latestOf } from './planning.js';
 import { store } from './store.js';
 import { t } from './texts.js';
@@ -94,7 +95,8 @@ function shownAs(state, day, problem, plan) {
   const former = plans.find(({ number }) => number === NUMBER);
   const base = problem ? inSeconds(schemas, problem) : live.base;
   const untold = live.base ? untoldOf(live.base, request) : [];
-  const patch = { time: time === null || time === live.day.now ? day.now : time };
+  const patch = { time: time === null || time === live.day.now ? day.now : time,
+    locks: day.orders.filter(({ pinned }) => pinned).map(({ id }) => id) };
   const entry = { ...former, request: base, replan: { freeze_before: day.now } };
   const isStale = live.isWall && live.changes.size && Date.now() - live.changedAt > FRESH_MS;
   if (!plan && !isStale && day.now - former?.replan.freeze_before < STEP) {
@@ -144,16 +146,35 @@ export function tell(...events) {
   });
 }
 
-/** Tell the orders that were added, changed and taken out here. */
-export function tellEdits() {
-  const { live, request } = store.get();
-  return tell(...untoldOf(live.base, request));
+/** Return what was changed here and isn't told yet: orders, and where they were put by hand. */
+export function untoldIn(state) {
+  const { live, request } = state;
+  const entry = shownPlan(state);
+  return live.base ? [...untoldOf(live.base, request),
+    ...(entry?.hand ? pinsOf(indexOf(entry), entry.hand.moved) : [])] : [];
 }
 
+/** Tell what was changed here; the day's plan is then the one that is looked at. */
+export async function tellEdits() {
+  if (!await tell(...untoldIn(store.get()))) return;
+  store.set(({ plans }) => ({ plans: plans.filter(({ number }) => number === NUMBER),
+    shown: NUMBER, besides: null, steps: [], undone: [] }));
+}
+
+/** Keep customers with their vehicles, or let go of them. */
+export function lock(ids, isLocked) {
+  const { live, plans } = store.get();
+  if (!live) setLocked(ids, isLocked);
+  else tell(...locksOf(indexOf(plans.find(({ number }) => number === NUMBER)), ids, isLocked));
+}
+
+/** Do something and tell whether that went well; what went wrong is shown. */
 async function attempt(work) {
   try {
     await work();
+    return true;
   } catch (error) {
     showFailure(error);
+    return false;
   }
 }

@@ -2,6 +2,7 @@
 
 import { clock, duration, money, percent, signed } from './format.js';
 import { saidOf } from './said.js';
+import { shipmentOf } from './visits.js';
 import { nameOfVehicle } from './vehicle-labels.js';
 import { t } from '../texts.js';
 
@@ -130,6 +131,32 @@ export function untoldOf(base, request) {
     ...base.customers.filter(({ id }) => !now.has(id))
       .map(({ id }) => ({ kind: 'order.cancelled', order: id })),
   ];
+}
+
+/** Return the events that keep orders where they were put by hand, in the plan that has them so. */
+export function pinsOf(index, moved) {
+  const customers = new Set(index.request.customers.map(({ id }) => id));
+  const pins = moved.flatMap((id) => {
+    const halt = index.halts.get(`c:${id}`);
+    const order = customers.has(id) ? id : shipmentOf(index.request, id)?.id;
+    if (!halt || !order) return [];
+    const beside = (by) => halt.trip.stops[halt.stop + by]?.id;
+    const [before, behind] = order === id && halt.stop !== null ? [beside(-1), beside(1)] : [];
+    return [pinOf(order, halt, customers.has(before) && before),
+      ...(customers.has(behind) ? [pinOf(behind, halt, id)] : [])];
+  });
+  return [...new Map(pins.map((pin) => [pin.order, pin])).values()];
+}
+
+function pinOf(order, { vehicle }, after) {
+  return { kind: 'order.pinned', order, vehicle: vehicle.name, ...(after && { after }) };
+}
+
+/** Return the events that keep orders with the vehicles of a plan, or let go of them. */
+export function locksOf(index, ids, isLocked) {
+  const orders = new Map(ids.map((id) => [shipmentOf(index.request, id)?.id ?? id, id]));
+  return [...orders].map(([order, id]) => (isLocked
+    ? pinOf(order, index.halts.get(`c:${id}`)) : { kind: 'order.pinned', order, undone: true }));
 }
 
 /** Return a problem with what isn't told yet. */

@@ -34,6 +34,7 @@ function Outcome({ entry }) {
   const { words, change, penalty, before, fromName, violations } = entry.hand;
   const rules = rulesInWords(violations, entry.plan.routes);
   const busy = useStore((state) => state.run.state !== 'idle');
+  const isLive = useStore((state) => state.live !== null);
   const isBack = useStore((state) => Boolean(stepBack(state)));
   const isForth = useStore((state) => Boolean(stepForth(state)));
   const whole = trueCost(entry) - before;
@@ -51,9 +52,9 @@ function Outcome({ entry }) {
     <div class="buttons">
       <button type="button" disabled=${!isBack} onClick=${undoStep}>${t('hand.undo')}</button>
       <button type="button" disabled=${!isForth} onClick=${redoStep}>${t('hand.redo')}</button>
-      <button type="button" disabled=${busy} onClick=${improvePlan}>
-        ${t('hand.improve')}</button>
-      ${!rules.length && html`<${SendNow} />`}
+      ${!isLive && html`<button type="button" disabled=${busy} onClick=${improvePlan}>
+        ${t('hand.improve')}</button>`}
+      ${!isLive && !rules.length && html`<${SendNow} />`}
     </div>`;
 }
 

@@ -2,13 +2,12 @@
 
 import { isWaiting, openRequest, openTab, shownPlan } from '../actions.js';
 import { clock, duration, km, money } from '../core/format.js';
-import { untoldOf } from '../core/living.js';
 import { fleetSize } from '../core/naming.js';
 import { penaltyOf, trueCost } from '../core/terms.js';
 import { isToBeSent, sendChange } from '../dispatching.js';
 import { isUndoable, undoLast } from '../hands.js';
 import { html, useRef } from '../libraries.js';
-import { tellEdits } from '../living.js';
+import { tellEdits, untoldIn } from '../living.js';
 import { plan, stop } from '../planning.js';
 import { useStore } from '../store.js';
 import { openPlans, share } from '../keeping/kept.js';
@@ -63,9 +62,8 @@ function SendChange() {
 
 /** What time it is on a day that goes on, and what of it isn't told yet. */
 function LiveState() {
-  const { day, base } = useStore((state) => state.live);
-  const request = useStore((state) => state.request);
-  const count = base ? untoldOf(base, request).length : 0;
+  const { day } = useStore((state) => state.live);
+  const count = useStore((state) => untoldIn(state).length);
   return html`<span class="live-clock" role="timer">${clock(day.now)}</span>
     ${day.is_planned ? null : html`<span class="stale" role="status">${t('live.planning')}</span>`}
     ${count > 0 && html`<button type="button" class="primary" id="tell-edits"

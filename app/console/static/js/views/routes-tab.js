@@ -11,9 +11,9 @@ import { customersOf } from '../core/replanning.js';
 import { nameOfVehicle, titleOfVehicle } from '../core/vehicle-labels.js';
 import { isVisit } from '../core/visits.js';
 import { html, useEffect, useState } from '../libraries.js';
+import { lock } from '../living.js';
 import { useStore } from '../store.js';
 import { useSavesNothing } from './drones-worth.js';
-import { setLocked } from '../hands.js';
 import { IdleDrones } from './idle-drones.js';
 import { dropOn, Grip } from './list-drag.js';
 import { Badge, linked, SelectButton, ShareBar } from './parts.js';
@@ -105,7 +105,7 @@ function LockAll({ vehicle }) {
   const isLocked = ids.length > 0 && ids.every((id) => locks.includes(id));
   return html`<div class="buttons"><button type="button" aria-pressed=${isLocked}
     aria-label=${t('routes.lockOf', { vehicle: nameOfVehicle(vehicle.name) })}
-    onClick=${() => setLocked(ids, !isLocked)}>${
+    onClick=${() => lock(ids, !isLocked)}>${
       isLocked ? t('routes.allLocked') : t('routes.lockAll')}</button>
     </div>`;
 }

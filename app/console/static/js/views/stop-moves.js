@@ -5,8 +5,9 @@ import { moveInWords } from '../core/hands-words.js';
 import { placeAt, placeBeside, vehiclesFor } from '../core/moving.js';
 import { leftOutOf, shipmentOf } from '../core/visits.js';
 import { nameOfVehicle } from '../core/vehicle-labels.js';
-import { askFit, moveCustomerTo, setLocked } from '../hands.js';
+import { askFit, moveCustomerTo } from '../hands.js';
 import { html } from '../libraries.js';
+import { lock } from '../living.js';
 import { useStore } from '../store.js';
 import { t } from '../texts.js';
 
@@ -19,6 +20,7 @@ export function move(index, id, place) {
 export function StopMoves({ id }) {
   const entry = useStore(shownPlan);
   const locks = useStore((state) => state.locks);
+  const isLive = useStore((state) => state.live !== null);
   const index = indexOf(entry);
   const halt = index?.halts.get(`c:${id}`);
   const isKnown = index && (halt || leftOutOf(entry.plan).some((other) => other.id === id));
@@ -40,10 +42,10 @@ export function StopMoves({ id }) {
     <button type="button" onClick=${() => askFit(customer)}>
       ${t('stop.best')}</button>
     ${halt && html`<button type="button" aria-pressed=${isLocked}
-      onClick=${() => setLocked([id], !isLocked)}>${
+      onClick=${() => lock([id], !isLocked)}>${
         isLocked ? t('stop.locked') : t('stop.lock')}</button>
-      <button type="button" onClick=${() => move(index, id, null)}>
-        ${t('stop.leaveOut')}</button>`}</div>`;
+      ${!isLive && html`<button type="button" onClick=${() => move(index, id, null)}>
+        ${t('stop.leaveOut')}</button>`}`}</div>`;
 }
 
 function customerOf({ request }, id) {
