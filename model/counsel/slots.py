@@ -23,6 +23,10 @@ TRIED = 3
 vehicles on whose routes it is looked why there is none."""
 
 
+ALIKE = 1e-6
+"""Money by which places of two slots differ at most that are taken to be one."""
+
+
 @dataclass(frozen=True)
 class SearchedPlan:
     """A plan as the search sees it: what is left of it, if some has happened.
@@ -57,11 +61,16 @@ def find_slots(bench: Bench, slots: Sequence[Customer],
         The plan as the search sees it; None: it isn't asked.
     """
     benches = [bench.under(with_customers(bench.problem, {bench.last: slot})) for slot in slots]
-    if view is None or not _is_seen(bench, view):
+    if view is None or bench.setting.past.had or not _is_seen(bench, view):
         yield from [next(iter(find_fits(each, 1).places), None) for each in benches]
         return
-    for each, offers in zip(benches, _offers(view, slots), strict=True):
-        yield _judged(each, view, offers) or _refused(each, view)
+    judged = list[tuple[Offer, Fit]]()
+    for each, slot, offers in zip(benches, slots, _offers(view, slots), strict=True):
+        fit = _alike(each, view, slot, offers, judged)
+        if fit is None:
+            fit = _judged(each, view, offers)
+            judged += [(offer, fit) for offer in offers[:1] if fit is not None]
+        yield fit or _refused(each, view)
 
 
 def _is_seen(bench: Bench, view: SearchedPlan) -> bool:
@@ -79,6 +88,25 @@ def _offers(view: SearchedPlan, slots: Sequence[Customer]) -> list[list[Offer]]:
     many = with_copies(with_customers(problem, {own: slots[0]}), own, slots[1:])
     solution = replace(view.solution, unassigned=(*view.solution.unassigned, *nodes[1:]))
     return slot_offers(many, solution, nodes)
+
+
+def _alike(bench: Bench, view: SearchedPlan, slot: Customer, offers: Sequence[Offer],
+           judged: Sequence[tuple[Offer, Fit]]) -> Fit | None:
+    """Return the place of a slot that was judged for another, by the same times at the same cost.
+
+    If the truck waits for neither, and comes in time for both, it is the same route.
+    """
+    for offer, fit in judged if offers else ():
+        if (offer.place != offers[0].place or abs(offer.cost - offers[0].cost) > ALIKE
+                or fit.trial.place != view.whole(offer.place)):
+            continue
+        stop = next((stop for route in fit.trial.solution.routes for trip in route.trips
+                     for stop in trip.stops if stop.node == bench.node), None)
+        if (stop is not None and stop.service_start == stop.ready
+                and slot.gaps == () and slot.earliest <= stop.arrival
+                and stop.service_start <= slot.latest):
+            return Fit(bench, fit.trial)
+    return None
 
 
 def _judged(bench: Bench, view: SearchedPlan, offers: Sequence[Offer]) -> Fit | None:

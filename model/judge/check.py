@@ -262,11 +262,12 @@ def _unreachable(problem: Problem, flyer: DroneType | VehicleType,
     for leg in legs:
         if not all(0 <= node < problem.num_nodes for node in leg):
             return
-        places = " to ".join(problem.place_at(node).id for node in leg)
-        if UNREACHABLE in (travel.duration.item(*leg), travel.distance.item(*leg)):
-            yield Violation("UNREACHABLE", f"no flight from {places}", path)
-        elif drives and travel.duration.item(*leg) >= MAX_QUANTITY:
-            yield Violation("UNREACHABLE", f"no way from {places}", path)
+        lasts = travel.duration.item(*leg)
+        is_barred = UNREACHABLE in (lasts, travel.distance.item(*leg))
+        if is_barred or (drives and lasts >= MAX_QUANTITY):
+            places = " to ".join(problem.place_at(node).id for node in leg)
+            message = f"no {'flight' if is_barred else 'way'} from {places}"
+            yield Violation("UNREACHABLE", message, path)
 
 
 def _mismatches(stated: Trip, timed: Trip, path: str) -> Iterator[Violation]:

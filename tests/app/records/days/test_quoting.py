@@ -61,6 +61,7 @@ def test_slot_costs_what_its_cheapest_place_does(service: httpx.Client, seed: in
         **PROBLEM, "replan": {"plan": plan, "freeze_before": now}}
     slots = [{"earliest": (begin := draw.randrange(0, 2000)), "latest": begin + length}
              for length in (0, 60, 600, 3000)] + [{"by": "drone"}]
+    slots += [{"earliest": 150 * number, "latest": 150 * number + 1500} for number in range(6)]
     reply = service.post("/quote", json={"problem": problem, "plan": plan, "order": NEW,
                                          "slots": slots}).json()
     costs = [cheapest(service, problem, plan, slot) for slot in slots]
@@ -85,6 +86,17 @@ def test_slot_accepted_is_kept(service: httpx.Client) -> None:
     stop = next(stop for route in plan_of(service, day)["routes"] for trip in route["trips"]
                 for stop in trip["stops"] if stop["id"] == "N")
     assert 400 <= stop["service_start"] <= 900
+
+
+@pytest.mark.parametrize(("limits", "kept"), [
+    ({}, [True, True]), ({"new_orders": "behind"}, [False, True])])
+def test_quote_keeps_to_what_may_change(service: httpx.Client, limits: Data,
+                                        kept: list[bool]) -> None:
+    van = PROBLEM["fleet"][0] | {"capacity": [9], "count": 1}
+    day = begun(service, PROBLEM | {"fleet": [van], "options": {"change_limits": limits}})
+    quote = quoted(service, day, [{"latest": 500}, {"latest": 5000}],
+                   order=order("N", 1, 0)["customer"])
+    assert [each["feasible"] for each in quote["slots"]] == kept
 
 
 def test_quote_goes_by_the_day_as_it_stands(service: httpx.Client) -> None:
