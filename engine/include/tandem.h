@@ -27,11 +27,6 @@ extern "C" {
     TANDEM_VIEW(name, row, 5)
 #pragma GCC visibility push(default)
 
-/* How many of each a problem has. */
-typedef struct tandem_size {
-    int64_t depots, customers, types, dimensions;
-} tandem_size;
-
 /* A node, as much as fits a line of the processor's cache: when its window opens; the last arrival
    that is allowed, far where lateness only costs; service duration; release; the last arrival that
    is not late; demand in the first dimensions.
@@ -259,7 +254,6 @@ TANDEM_ROWS(tandem_point, const tandem_point);
 TANDEM_ROWS(tandem_price, const tandem_price);
 TANDEM_ROWS(tandem_rate, const tandem_rate);
 TANDEM_ROWS(tandem_setup, const tandem_setup);
-TANDEM_ROWS(tandem_size, const tandem_size);
 TANDEM_ROWS(tandem_plugging, tandem_plugging);
 TANDEM_ROWS(tandem_span, tandem_span);
 TANDEM_ROWS(tandem_u64, uint64_t);
@@ -297,42 +291,44 @@ typedef struct tandem_legs {
     tandem_leg_law_1d law; /* (travel,) */
 } tandem_legs;
 
+/* A problem, as policies and the search read it. Where nobody states what a table tells, it has no
+   rows. */
+typedef struct tandem_problem_tables {
+    int64_t num_depots, num_nodes, num_types;
+    tandem_node_3d node;           /* (variant, node, 1 + gaps) */
+    tandem_i64_3d amount;          /* (node, tier, entry) none where the demand of nodes tells all */
+    tandem_price_1d price;         /* (node,) per hour; in a search, per ms */
+    tandem_goods_1d goods;         /* (node,) */
+    tandem_setup_1d setup;         /* (node,) */
+    tandem_i64_1d max_time_aboard; /* (node,) ms, FAR without limit */
+    tandem_pair_1d pair;           /* (node,) */
+    tandem_i64_2d max_between;     /* (type, node) ms from a pickup to its delivery, likewise */
+    tandem_lag_2d lag;             /* (node, rank) */
+    tandem_lag_2d across;          /* (node, rank) behind others on any vehicle, by less than nothing
+                                      before them */
+    tandem_f64_2d vehicle_cost;    /* (type, node) of being served by it, on top of all else */
+    tandem_bool_1d no_launch;      /* (node,) no drone takes off or is recovered there */
+    tandem_i64_1d zones;           /* (node,) bits of the zones with hours that hold it */
+    tandem_hub_1d hub;             /* (depot,) none where all have enough */
+    tandem_vehicle_type_1d type;   /* (row,) trucks first */
+    tandem_rate_1d rate;           /* (row,) per km and hour; in a search, per mm and ms */
+    tandem_bool_2d reload;         /* (type, node) where a trip may end and the next begin */
+    tandem_i64_2d profile_time;    /* (type, change) */
+    tandem_i64_2d profile_factor;  /* (type, change + 1) */
+    double unassigned_cost;        /* of whoever it costs least to leave out */
+    tandem_f64_1d unassigned_more; /* (node,) what leaving out another costs above that */
+} tandem_problem_tables;
+
+TANDEM_ROWS(tandem_problem_tables, const tandem_problem_tables);
+
+/* Problems as policies read them, padded to a common size. */
 typedef struct tandem_instance {
-    tandem_size_1d size; /* (problem,) */
-    tandem_node_4d node; /* (problem, variant, node, 1 + gaps) */
-    tandem_i64_4d
-        amount; /* (problem, node, tier, entry); no tiers where the demand of nodes tells all */
-    tandem_price_2d price;         /* (problem, node) */
-    tandem_goods_2d goods;         /* (problem, node), or (problem, 0) */
-    tandem_setup_2d setup;         /* (problem, node), or (problem, 0) */
-    tandem_i64_2d max_time_aboard; /* (problem, node) ms, FAR without limit, or (problem, 0) if
-                                      nobody has one */
-    tandem_pair_2d pair;           /* (problem, node), or (problem, 0) */
-    tandem_i64_3d max_between;     /* (problem, type, node) ms from a pickup to its delivery, FAR
-                                      without limit, or (problem, 0, 0) if none has one */
-    tandem_lag_3d lag;             /* (problem, node, rank), or (problem, 0, 0) if nobody has one */
-    tandem_lag_3d across;          /* (problem, node, rank) behind others on any vehicle, by less
-                                      than nothing before them, or (problem, 0, 0) likewise */
-    tandem_f64_3d vehicle_cost;    /* (problem, type, node) of being served by it, on top of all
-                                      else, or (problem, 0, 0) if nobody states any */
-    tandem_bool_2d no_launch;      /* (problem, node) no drone takes off or is recovered there, or
-                                      (problem, 0) where any may */
-    tandem_i64_2d zones;           /* (problem, node) bits of the zones with hours that hold it, or
-                                      (problem, 0) where there are none */
-    tandem_hub_2d hub;             /* (problem, depot), or (problem, 0) where all have enough */
-    tandem_vehicle_type_2d type;   /* (problem, row); trucks first, as many as `size` says */
-    tandem_rate_2d rate;           /* (problem, row) */
-    tandem_bool_3d reload; /* (problem, type, node) where a trip may end and the next begin */
-    tandem_bool_3d
-        can_drive; /* (problem, type, node) table, kind, skills and capacity allow a truck */
-    tandem_bool_3d can_fly;        /* (problem, type, node) likewise for its drones */
-    tandem_i64_3d profile_time;    /* (problem, type, change) */
-    tandem_i64_3d profile_factor;  /* (problem, type, change + 1) */
-    tandem_i64_4d duration;        /* (problem, travel, node, node) */
-    tandem_i64_4d distance;        /* (problem, travel, node, node) */
-    tandem_f64_1d unassigned_cost; /* (problem,) of whoever it costs least to leave out */
-    tandem_f64_2d unassigned_more; /* (problem, node) what leaving out another costs above that */
-    tandem_i64_3d neighbour; /* (problem, node, rank) nearest customers first, -1 behind the last */
+    tandem_problem_tables_1d problem; /* (problem,) */
+    tandem_bool_3d can_drive; /* (problem, type, node) table, kind, skills and capacity allow it */
+    tandem_bool_3d can_fly;   /* (problem, type, node) likewise for its drones */
+    tandem_i64_4d duration;   /* (problem, travel, node, node) */
+    tandem_i64_4d distance;   /* (problem, travel, node, node) */
+    tandem_i64_3d neighbour;  /* (problem, node, rank) nearest customers first, -1 behind the last */
 } tandem_instance;
 
 /* Running plans, a row per rollout, then scratch rows. They belong to the engine. */
@@ -414,45 +410,24 @@ typedef struct tandem_fairness {
     int64_t latest;
 } tandem_fairness;
 
+/* A problem as the search reads it. */
 typedef struct tandem_problem_data {
-    int64_t num_depots;
-    int64_t num_nodes;
-    int64_t num_types;
+    tandem_problem_tables problem;
     int64_t max_visits; /* customers on a sortie */
     tandem_strategy strategy;
     tandem_fairness fairness;
-    bool all_optional;             /* nobody has to be served */
-    double unassigned_cost;        /* of whoever it costs least to leave out */
-    tandem_f64_1d unassigned_more; /* (node,) what leaving out another costs above that */
-    bool unassigned_costs_differ;  /* leaving out some costs more than others */
-    tandem_bool_1d must_serve;     /* (node,) leaving it out costs more than any route for one */
-    tandem_node_3d place;          /* (variant, node, row) */
-    tandem_i64_3d amount;  /* (node, tier, entry); no tiers where the demand of nodes tells all */
-    tandem_price_1d price; /* (node,) per ms */
-    tandem_goods_1d goods; /* (node,) none where all go together */
-    tandem_setup_1d setup; /* (node,) none where nobody sets up */
-    tandem_i64_1d max_time_aboard; /* (node,) ms, none where nothing is limited */
-    tandem_pair_1d pair;           /* (node,) none where nobody belongs together */
-    tandem_i64_2d max_between;   /* (type, node) ms from a pickup to its delivery, none likewise */
-    tandem_lag_2d lag;           /* (node, rank), none likewise */
-    tandem_lag_2d across;        /* (node, rank) behind others on any vehicle, none likewise */
-    tandem_span_1d span;         /* (node,) as a route is timed, none likewise */
-    tandem_plugging_1d plugging; /* (number,) of other routes as one is timed, by depot and time,
-                                    and how many in the last row; none where nobody waits */
-    tandem_f64_2d vehicle_cost;  /* (type, node) of being served by it, none likewise */
-    tandem_bool_1d
-        no_launch;       /* (node,) no drone takes off or is recovered there; none where any may */
-    tandem_i64_1d zones; /* (node,) bits of the zones with hours that hold it; none likewise */
-    tandem_hub_1d hub;   /* (depot,) none where all have enough */
+    bool all_optional;            /* nobody has to be served */
+    bool unassigned_costs_differ; /* leaving out some costs more than others */
+    tandem_bool_1d must_serve;    /* (node,) leaving it out costs more than any route for one */
+    tandem_span_1d span;          /* (node,) as a route is timed, if there are orders across any */
+    tandem_plugging_1d plugging;  /* (number,) of other routes as one is timed, by depot and time,
+                                     and how many in the last row; none where nobody waits */
     tandem_bool_2d
         halts; /* (type, depot) launch sites where it may stop; (0, 0) if there are none */
-    tandem_i64_1d halt_after;    /* (depot,) who is served before a stop there, or -1 */
-    tandem_f64_1d halt_cost;     /* (depot,) of each stop there */
-    tandem_i32_2d near_halts;    /* (node, rank) launch sites near a customer, -1 behind the last */
-    tandem_vehicle_type_1d type; /* (row,) */
-    tandem_rate_1d rate;         /* (row,) per mm and per ms */
+    tandem_i64_1d halt_after; /* (depot,) who is served before a stop there, or -1 */
+    tandem_f64_1d halt_cost;  /* (depot,) of each stop there */
+    tandem_i32_2d near_halts; /* (node, rank) launch sites near a customer, -1 behind the last */
     tandem_evaluation_1d evaluation; /* (row,) */
-    tandem_bool_2d reload;           /* (type, node) where a trip may end and the next begin */
     tandem_i64_1d visits;            /* (row,) customers on a sortie */
     tandem_bool_3d can;              /* (row, 2, node) by truck, by drone */
     tandem_bool_2d splice;           /* (type, type) vehicles may end each other's routes */
@@ -460,9 +435,7 @@ typedef struct tandem_problem_data {
         swap;         /* (type, type) may drive each other's routes at a cost by distance alone */
     tandem_legs leg;  /* duration, distance */
     tandem_legs back; /* the same, for those to a node */
-    tandem_i64_2d profile_time;   /* (type, change) */
-    tandem_i64_2d profile_factor; /* (type, change + 1) */
-    tandem_i32_2d near;           /* (node, rank) customers, nearest first, -1 behind the last */
+    tandem_i32_2d near;     /* (node, rank) customers, nearest first, -1 behind the last */
     tandem_i32_2d granular; /* (node, rank) customers whom a truck would visit before or after */
     tandem_i64_1d deadline; /* (2,) when the search must end, as `model.engine.alarm` says */
 } tandem_problem_data;

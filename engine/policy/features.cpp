@@ -107,7 +107,7 @@ void describe_customer(const Situation& now, Int node, const Outlook& outlook,
         left = std::min(double(feature.window_slack), slack(0, excess, unit.time));
         feature.window_slack = to_float(left);
     }
-    if (some_limited(setting.max_between) && is_delivery(setting.pair, node)) {
+    if (some_limited(setting.between) && is_delivery(setting.pair, node)) {
         const Int excess = excess_under_way(setting, log, node, log.count.stops, outlook.start);
         left = std::min(double(feature.window_slack), slack(0, excess, unit.time));
         feature.window_slack = to_float(left);
@@ -202,18 +202,17 @@ Int nearest_drive(View<const Int, 1> onward, View<const Int, 1> actions) {
 // The demand left in the first dimension: what is delivered or, if more, picked up.
 double unserved_demand(const Instance& instance, const State& state, Int r) {
     const Int b = state.problem[r];
-    const View<const Node, 2> nodes = instance.node[b][0];
+    const ProblemTables& problem = instance.problem[b];
+    const View<const Node, 2> nodes = problem.node[0];
     const View<const bool, 1> served = state.served[r];
-    const View<const Int, 3> amounts = instance.amount[b];
-    const bool some_picked = num_tiers(amounts) > 0;
-    const Size& size = instance.size[b];
+    const bool some_picked = num_tiers(problem.amount) > 0;
     double total = 0, picked = 0;
-    for (Int node = size.depots; node < size.depots + size.customers; ++node) {
+    for (Int node = problem.num_depots; node < problem.num_nodes; ++node) {
         if (served[node]) continue;
         total += double(demand_of(nodes[node])[0]);
         // What is brought somewhere was picked up before.
         if (some_picked) {
-            picked += double(std::max(Int{0}, picked_of(amounts, node, 0)[0]));
+            picked += double(std::max(Int{0}, picked_of(problem.amount, node, 0)[0]));
         }
     }
     return std::max(total, picked);
@@ -221,10 +220,10 @@ double unserved_demand(const Instance& instance, const State& state, Int r) {
 
 // What the vehicles that are not open yet can carry in the first dimension, on all their trips.
 double closed_reserve(const Instance& instance, const State& state, Int r) {
-    const Int b = state.problem[r];
+    const ProblemTables& problem = instance.problem[state.problem[r]];
     double reserve = 0;
-    for (Int k = 0; k < instance.size[b].types; ++k) {
-        const VehicleType& type = instance.type(b, k);
+    for (Int k = 0; k < problem.num_types; ++k) {
+        const VehicleType& type = problem.type[k];
         reserve += double(type.count - state.used(r, k)) * double(type.max_trips) *
                    double(type.capacity[0]);
     }
@@ -232,17 +231,13 @@ double closed_reserve(const Instance& instance, const State& state, Int r) {
 }
 
 // The open vehicle as rules see it that few state.
-Duty duty_of(const Instance& instance, const State& state, Int r, const Setting& setting,
-             const Unit& unit, const VehicleLog& log) {
-    const Int b = state.problem[r];
-    const Size& size = instance.size[b];
+Duty duty_of(const State& state, Int r, const Setting& setting, const Unit& unit,
+             const VehicleLog& log) {
     return {.setting = setting,
             .unit = unit,
             .vehicle = state.vehicle[r],
             .log = log,
-            .served = state.served[r],
-            .vehicle_cost = instance.vehicle_cost[b],
-            .num_nodes = size.depots + size.customers};
+            .served = state.served[r]};
 }
 
 // Describe the open vehicle, when all vehicles not open yet can carry so much.
@@ -251,7 +246,7 @@ void describe_vehicle(const Scene& scene, const State& state, Int r, double unse
     const auto& [instance, scale, type_token] = scene;
     const Int b = state.problem[r];
     const Vehicle& vehicle = state.vehicle[r];
-    const VehicleType& type = instance.type(b, vehicle.type);
+    const VehicleType& type = instance.problem[b].type[vehicle.type];
     const VehicleLog log = log_of(state.log, r);
     const auto capacity = double(std::max(Int{1}, type.capacity[0]));
     const auto free = double(room(type, vehicle));
@@ -278,13 +273,13 @@ void describe_vehicle(const Scene& scene, const State& state, Int r, double unse
     seen.drone_aboard = type.drones > vehicle.flying ? 1 : 0;
     seen.load_by_demand = to_float(std::min(free / std::max(1.0, unserved), 2.0));
     std::copy_n(type_token[b][vehicle.type].data(), std::size(seen.type), seen.type);
-    const Setting setting = setting_of(instance, b, vehicle.type);
+    const Setting setting(instance, b, vehicle.type);
     const Unit unit = unit_of(scale, b);
     if (limits_travel(type)) {
         const double left = slack(longest_travel(type), vehicle.legs.duration, unit.time);
         seen.working_slack = to_float(std::min(double(seen.working_slack), left));
     }
-    describe_duty(duty_of(instance, state, r, setting, unit, log), clock, seen);
+    describe_duty(duty_of(state, r, setting, unit, log), clock, seen);
 }
 
 // Describe the open vehicle and what is left to do.
@@ -292,8 +287,8 @@ void describe_state(const Scene& scene, const State& state, Int r, double unserv
                     VehicleFeatures& seen) {
     const Int b = state.problem[r];
     seen = {};
-    seen.unserved = to_float(
-        quotient(state.num_unserved[r], std::max(Int{1}, scene.instance.size[b].customers)));
+    const Int customers = std::max(Int{1}, customers_of(scene.instance.problem[b]));
+    seen.unserved = to_float(quotient(state.num_unserved[r], customers));
     seen.unserved_demand = to_float(unserved / scene.scale.amount[b]);
     const double reserve = closed_reserve(scene.instance, state, r);
     if (state.vehicle[r].type == no_vehicle) {
@@ -317,18 +312,19 @@ void describe_opens(const Scene& scene, const State& state, Int r, double unserv
                     const Seen& seen) {
     const Instance& instance = scene.instance;
     const Int b = state.problem[r];
+    const ProblemTables& problem = instance.problem[b];
     const Unit unit = unit_of(scene.scale, b);
     for (Int index = 0; index < seen.count; ++index) {
         const Int action = seen.action[index];
         if (kind_of(action) != ActionKind::open) continue;
         const Int k = target_of(action);
-        ActionFeatures& feature = begin_candidate(seen, index, instance.node.shape(2) + k);
-        describe_open(instance.type(b, k), instance.rate(b, k).fixed, state.used(r, k), unserved,
+        ActionFeatures& feature = begin_candidate(seen, index, problem.node.shape(1) + k);
+        describe_open(problem.type[k], problem.rate[k].fixed, state.used(r, k), unserved,
                       unit, feature);
         if (state.vehicle[r].type == no_vehicle) continue;
-        const Setting setting = setting_of(instance, b, state.vehicle[r].type);
+        const Setting setting(instance, b, state.vehicle[r].type);
         const VehicleLog log = log_of(state.log, r);
-        describe_parting(duty_of(instance, state, r, setting, unit, log), true, feature);
+        describe_parting(duty_of(state, r, setting, unit, log), true, feature);
     }
 }
 
@@ -337,7 +333,7 @@ void describe_moves(const Instance& instance, const Scales& scale, const State& 
                     const Seen& seen) {
     const Int b = state.problem[r];
     const Vehicle& vehicle = state.vehicle[r];
-    const Setting setting = setting_of(instance, b, vehicle.type);
+    const Setting setting(instance, b, vehicle.type);
     const VehicleLog log = log_of(state.log, r);
     const Unit unit = unit_of(scale, b);
     const View<const Int, 1> actions = seen.action.first(seen.count);
@@ -349,14 +345,14 @@ void describe_moves(const Instance& instance, const Scales& scale, const State& 
         .unit = unit,
         .vehicle = vehicle,
         .log = log,
-        .rate = instance.rate(b, vehicle.type),
-        .prices = instance.price[b],
+        .rate = setting.rate[vehicle.type],
+        .prices = setting.price,
         .distance = instance.distance[b][setting.type.travel],
         .flown = instance.distance[b][setting.type.drone_travel],
         .since = vehicle.idle != 0 ? vehicle.next_start : log.trip[log.count.trips - 1].start,
         .nearest = nearest_drive(setting.drive[here], actions),
     };
-    const Duty duty = duty_of(instance, state, r, setting, unit, log);
+    const Duty duty = duty_of(state, r, setting, unit, log);
     for (Int index = 0; index < actions.size(); ++index) {
         const ActionKind kind = kind_of(actions[index]);
         const Int node = target_of(actions[index]);

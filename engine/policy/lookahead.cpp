@@ -168,7 +168,7 @@ bool rests(const VehicleType& type) { return has_breaks(type) || has_driving_rul
 Int num_bound(const Duty& duty, Int on_trip, Int by_vehicle) {
     if (!some_apart(duty.setting.goods) || (on_trip | by_vehicle) == 0) return 0;
     Int bound = 0;
-    for (Int node = duty.setting.num_depots; node < duty.num_nodes; ++node) {
+    for (Int node = duty.setting.num_depots; node < duty.setting.num_nodes; ++node) {
         bound += !duty.served[node] && goes_with(duty.setting.goods[node], on_trip, by_vehicle);
     }
     return bound;
@@ -199,9 +199,9 @@ void describe_pair(const Duty& duty, const Candidate& candidate, ActionFeatures&
     const Int left = candidate.outlook.start + setting.node[node].service_duration();
     const Windows place = setting.node[delivery];
     double rush = hurry(place.closing(), left + way, duty.unit.time);
-    if (some_limited(setting.max_between)) {
+    if (some_limited(setting.between)) {
         const Int start = place.start_of_service(left + way);
-        const Int excess = excess_between(setting.max_between, node, left, start);
+        const Int excess = excess_between(setting.between, node, left, start);
         if (excess > -unlimited) rush = std::max(rush, hurry(0, excess, duty.unit.time));
     }
     feature.delivery_way = to_float(ratio(way, duty.unit.time));
@@ -224,7 +224,7 @@ void describe_rarer(const Duty& duty, const Candidate& candidate, ActionFeatures
     const Vehicle& vehicle = duty.vehicle;
     const Int node = candidate.node;
     feature.price =
-        to_float(ratio(vehicle_cost_at(duty.vehicle_cost, vehicle.type, node), duty.unit.cost));
+        to_float(ratio(vehicle_cost_at(setting.vehicle_cost, vehicle.type, node), duty.unit.cost));
     if (some_paired(setting.pair)) describe_pair(duty, candidate, feature);
     if (some_apart(setting.goods)) {
         feature.joins =
@@ -242,7 +242,7 @@ void describe_parting(const Duty& duty, bool for_good, ActionFeatures& feature) 
 }
 
 void describe_duty(const Duty& duty, Int now, VehicleFeatures& feature) {
-    const auto& [setting, unit, vehicle, log, served, vehicle_cost, num_nodes] = duty;
+    const auto& [setting, unit, vehicle, log, served] = duty;
     const VehicleType& type = setting.type;
     feature.bound = to_float(few(num_bound(duty, vehicle.kept_on_trip, vehicle.kept_by_vehicle)));
     if (log.count.trips == 0) return;

@@ -46,9 +46,7 @@ struct Duty {
     const Unit& unit;
     const Vehicle& vehicle;
     const VehicleLog& log;
-    View<const bool, 1> served;          // (node,)
-    View<const double, 2> vehicle_cost;  // (type, node), or none
-    Int num_nodes;                       // without padding
+    View<const bool, 1> served;  // (node,)
 };
 
 // Describe serving a customer.

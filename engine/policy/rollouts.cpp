@@ -61,7 +61,7 @@ private:
 
 // The most candidates that a decision may have.
 Int most_candidates(const Instance& instance) {
-    return 2 * instance.node.shape(2) + 1 + instance.type.shape(1);
+    return 2 * instance.problem[0].node.shape(1) + 1 + instance.problem[0].type.size();
 }
 
 // The likeliest of so many candidates, or one drawn by probability if the temperature isn't 0.

@@ -5,7 +5,6 @@
 
 namespace tandem {
 
-using Size = tandem_size;
 using Node = tandem_node;
 using Setup = tandem_setup;
 using Price = tandem_price;
@@ -20,6 +19,7 @@ using Cost = tandem_cost;
 using LegLaw = tandem_leg_law;
 using Point = tandem_point;
 using Legs = tandem_legs;
+using ProblemTables = tandem_problem_tables;
 using Instance = tandem_instance;
 
 using Int = std::int64_t;
@@ -50,6 +50,10 @@ using Scales = tandem_scales;
 using Observation = tandem_observation;
 using Scene = tandem_scene;
 using StepWeights = tandem_step_weights;
+
+inline Int customers_of(const ProblemTables& problem) {
+    return problem.num_nodes - problem.num_depots;
+}
 
 inline float to_float(double value) { return float(value); }
 

@@ -1,7 +1,6 @@
 #include "simulation/aboard.h"
 
 #include "rules/company.h"
-#include "rules/pair.h"
 #include "simulation/meeting.h"
 
 namespace tandem {

@@ -26,7 +26,7 @@ Hub taken_at(const Instance& instance, const State& state, Int r, Int depot) {
     Hub taken = state.taken(r, depot);
     const Vehicle& vehicle = state.vehicle[r];
     if (vehicle.type == no_vehicle) return taken;
-    const VehicleType& type = instance.type(state.problem[r], vehicle.type);
+    const VehicleType& type = instance.problem[state.problem[r]].type[vehicle.type];
     const VehicleLog log = log_of(state.log, r);
     taken.batteries += batteries_of(type, log, depot);
     taken.chargers += chargers_of(type, log, depot);
@@ -38,12 +38,12 @@ Hub taken_at(const Instance& instance, const State& state, Int r, Int depot) {
 bool may_take_off(const Instance& instance, const State& state, Int r, Int k, Int depot,
                   Int trips) {
     if (state.taken.shape(1) == 0) return true;
-    const Int b = state.problem[r];
-    const VehicleType& type = instance.type(b, k);
-    return has_battery_for(type, instance.hub(b, depot),
+    const View<const Hub, 1> hub = instance.problem[state.problem[r]].hub;
+    const VehicleType& type = instance.problem[state.problem[r]].type[k];
+    return has_battery_for(type, hub[depot],
                            taken_at(instance, state, r, depot).batteries) &&
-           (depot == type.depot || charges_away(type, instance.hub(b, depot), trips)) &&
-           has_charger_for(type, instance.hub(b, type.depot), trips,
+           (depot == type.depot || charges_away(type, hub[depot], trips)) &&
+           has_charger_for(type, hub[type.depot], trips,
                            taken_at(instance, state, r, type.depot).chargers);
 }
 
@@ -56,17 +56,15 @@ void note_taken(const Instance& instance, State& state, Int r) {
 namespace {
 
 // Add what lateness and earliness cost at a customer, whose service begins at `start`.
-void add_window_cost(const Instance& instance, Int b, Int node, Int arrival, Int start,
-                     Cost& cost) {
-    const Windows place = instance.node[b][0][node];
-    const Price& price = instance.price(b, node);
+void add_window_cost(const ProblemTables& problem, Int node, Int arrival, Int start, Cost& cost) {
+    const Windows place = problem.node[0][node];
+    const Price& price = problem.price[node];
     cost.lateness += lateness_cost(price, place, start, hours_and_km);
     cost.earliness += waiting_cost(price, place, arrival, hours_and_km);
 }
 
 // Add what it costs by whom customers are served.
-void add_vehicle_cost(const Instance& instance, const VehicleLog& log, Int b, Int k, Cost& cost) {
-    const View<const double, 1> price = instance.vehicle_cost[b][k];
+void add_vehicle_cost(View<const double, 1> price, const VehicleLog& log, Cost& cost) {
     for (const LoggedStop& stop : log.stop.first(log.count.stops)) cost.stops += price[stop.node];
     for (const LoggedSortie& sortie : log.sortie.first(log.count.sorties)) {
         cost.stops += price[sortie.node];
@@ -109,16 +107,16 @@ double load_distance(View<const Int, 2> legs, const Setting& setting, const Vehi
 }
 
 // Add the cost of the flights by drones whose type is at a row.
-void add_flights(const Instance& instance, const VehicleLog& log, Int b, Int row, Cost& cost) {
-    const Rate& rate = instance.rate(b, row);
-    const View<const Int, 2> flights = instance.distance[b][instance.type(b, row).drone_travel];
+void add_flights(const Setting& setting, const VehicleLog& log, Int row, Cost& cost) {
+    const Rate& rate = setting.rate[row];
+    const View<const Int, 2> flights = setting.distances[setting.types[row].drone_travel];
     Int flown = 0, airborne = 0;
     for (const LoggedSortie& sortie : log.sortie.first(log.count.sorties)) {
         if (sortie.row != row) continue;
         flown += flights(log.stop[sortie.launch_stop].node, sortie.node);
         flown += flights(sortie.node, log.stop[sortie.recovery_stop].node);
         airborne += sortie.recovery_end - sortie.takeoff;
-        add_window_cost(instance, b, sortie.node, sortie.arrival, sortie.start, cost);
+        add_window_cost(setting, sortie.node, sortie.arrival, sortie.start, cost);
     }
     cost.distance += flown_cost(rate, flown, hours_and_km);
     cost.time += airborne_cost(rate, airborne, hours_and_km);
@@ -126,16 +124,15 @@ void add_flights(const Instance& instance, const VehicleLog& log, Int b, Int row
 
 }  // namespace
 
-void add_cost(const Instance& instance, const Setting& setting, const VehicleLog& log, Int b, Int k,
-              Cost& cost) {
-    const Rate& rate = instance.rate(b, k);
-    const View<const Int, 2> legs = instance.distance[b][setting.type.travel];
+void add_cost(const Setting& setting, const VehicleLog& log, Int k, Cost& cost) {
+    const Rate& rate = setting.rate[k];
+    const View<const Int, 2> legs = setting.distances[setting.type.travel];
     Int driven = 0;
     for (Int index = 1; index < log.count.stops; ++index) {
         const LoggedStop& stop = log.stop[index];
         driven += legs(log.stop[index - 1].node, stop.node);
-        if (stop.node >= instance.size[b].depots) {
-            add_window_cost(instance, b, stop.node, stop.arrival, stop.start, cost);
+        if (stop.node >= setting.num_depots) {
+            add_window_cost(setting, stop.node, stop.arrival, stop.start, cost);
         }
     }
     const Int end = log.stop[log.count.stops - 1].leave;
@@ -152,11 +149,11 @@ void add_cost(const Instance& instance, const Setting& setting, const VehicleLog
         cost.distance += load_cost(rate, carried, hours_and_km);
     }
     cost.stops += stops_cost(rate, served);
-    if (!instance.vehicle_cost[b].empty()) add_vehicle_cost(instance, log, b, k, cost);
+    if (!setting.vehicle_cost.empty()) add_vehicle_cost(setting.vehicle_cost[k], log, cost);
     add_work_cost(rate, paid_work(setting.type, end, working), hours_and_km, cost);
     for (Int row = first_drone_row(setting.types, k); row >= 0;
          row = next_drone_row(setting.types, row)) {
-        add_flights(instance, log, b, row, cost);
+        add_flights(setting, log, row, cost);
     }
 }
 

@@ -123,7 +123,7 @@ Int legal_services(const Rollout& rollout, View<Int, 1> actions, View<Outlook, 1
     const bool is_idle = vehicle.idle != 0;
     const Int trips = log.count.trips;
     if (is_idle && trips > 0 &&
-        !(trips < setting.type.max_trips && instance.reload(b, k, vehicle.node) &&
+        !(trips < setting.type.max_trips && setting.reload(k, vehicle.node) &&
           may_take_off(instance, state, r, k, vehicle.node, trips))) {
         return 0;
     }
@@ -140,7 +140,6 @@ Int legal_services(const Rollout& rollout, View<Int, 1> actions, View<Outlook, 1
     const bool trying = holds_count(setting) || order_is_open(setting, vehicle) || laden ||
                         may_pause(setting.type) || keeps_hours(setting.type) ||
                         limits_timed_travel(setting.type);
-    const Size& size = instance.size[b];
     Int found = 0;
     const auto add_if_legal = [&](Verdict verdict, Service service) {
         const bool is_legal = verdict == Verdict::yes ||
@@ -149,7 +148,7 @@ Int legal_services(const Rollout& rollout, View<Int, 1> actions, View<Outlook, 1
         const ActionKind kind = service.by_drone ? ActionKind::launch : ActionKind::drive;
         if (is_legal) actions.at(found++) = encode_action(kind, service.node);
     };
-    for (Int node = size.depots; node < size.depots + size.customers; ++node) {
+    for (Int node = setting.num_depots; node < setting.num_nodes; ++node) {
         if (state.served(r, node) || !may_carry(setting, vehicle, node)) continue;
         if (is_delivery(setting.pair, node) &&
             !(laden && is_all_aboard(setting.pair, state.served[r], node) &&
@@ -184,11 +183,12 @@ Int legal_returns(const Rollout& rollout, View<Int, 1> actions, View<Outlook, 1>
     const auto& [instance, state, r, scratch] = rollout;
     const Int b = state.problem[r];
     const Int k = state.vehicle[r].type;
-    const VehicleType& type = instance.type(b, k);
+    const ProblemTables& problem = instance.problem[b];
+    const VehicleType& type = problem.type[k];
     actions.at(found++) = encode_action(ActionKind::end_trip, type.ends_at);
     if (type.changes_ends == 0 || state.log.count[r].trips >= type.max_trips) return found;
-    for (Int place = 0; place < instance.size[b].depots; ++place) {
-        if (place != type.ends_at && instance.reload(b, k, place) &&
+    for (Int place = 0; place < problem.num_depots; ++place) {
+        if (place != type.ends_at && problem.reload(k, place) &&
             may_reload(rollout, place, outlooks[found])) {
             actions.at(found++) = encode_action(ActionKind::end_trip, place);
         }
@@ -253,13 +253,16 @@ private:
     std::vector<LoggedSortie> sortie_;
 };
 
+// How many actions on customers are legal at most.
+Int most_actions(const ProblemTables& problem) { return 2 * customers_of(problem) + 1; }
+
 // Tell whether a vehicle of type `k` could serve anybody when others are served.
 bool serves_behind_others(const Rollout& rollout, Int k) {
     const auto& [instance, state, r, scratch] = rollout;
     const Aside aside(state, r);
     if (state.vehicle[r].type != no_vehicle) close_vehicle(instance, state, r);
     open_vehicle(instance, state, r, k);
-    const Int most = 2 * instance.size[state.problem[r]].customers + 1;
+    const Int most = most_actions(instance.problem[state.problem[r]]);
     std::vector<Int> actions(static_cast<std::size_t>(most));
     std::vector<Outlook> outlooks(static_cast<std::size_t>(most));
     return legal_services(rollout, {actions.data(), {most}}, {outlooks.data(), {most}}) > 0;
@@ -269,18 +272,17 @@ bool serves_behind_others(const Rollout& rollout, Int k) {
 bool open_legal(const Rollout& rollout, Int k) {
     const auto& [instance, state, r, scratch] = rollout;
     const Int b = state.problem[r];
-    const VehicleType& type = instance.type(b, k);
+    const ProblemTables& problem = instance.problem[b];
+    const VehicleType& type = problem.type[k];
     if (state.used(r, k) >= type.count || !may_take_off(instance, state, r, k, type.begins_at, 0)) {
         return false;
     }
-    const Size& size = instance.size[b];
-    const View<const Goods, 1> goods = instance.goods[b];
     const Int parted = state.vehicle[r].parted | state.vehicle[r].kept_by_vehicle;
     bool waits = false;
-    for (Int node = size.depots; node < size.depots + size.customers; ++node) {
+    for (Int node = problem.num_depots; node < problem.num_nodes; ++node) {
         if (state.fresh(b, k, node) && !state.served(r, node) &&
-            (!some_apart(goods) || joins_anybody(goods[node], parted))) {
-            if (!is_bound(instance.across[b], node)) return true;
+            (!some_apart(problem.goods) || joins_anybody(problem.goods[node], parted))) {
+            if (!is_bound(problem.across, node)) return true;
             waits = true;
         }
     }
@@ -303,11 +305,11 @@ Int legal_actions(const Instance& instance, State& state, Int r, Int scratch, Vi
             return legal_returns(rollout, actions, outlooks, found);
         }
         if (state.log.count[r].trips == 0 ||
-            vehicle.node != instance.type(b, vehicle.type).ends_at) {
+            vehicle.node != instance.problem[b].type[vehicle.type].ends_at) {
             return found;
         }
     }
-    for (Int k = 0; k < instance.size[b].types; ++k) {
+    for (Int k = 0; k < instance.problem[b].num_types; ++k) {
         if (open_legal(rollout, k)) {
             actions.at(found++) = encode_action(ActionKind::open, k);
         }
@@ -373,13 +375,12 @@ void price_routes(const Instance& instance, State& state, Int r, View<const Int,
 
 void finish(const Instance& instance, State& state, Int r) {
     if (state.vehicle[r].type != no_vehicle) close_vehicle(instance, state, r);
-    const Int b = state.problem[r];
+    const ProblemTables& problem = instance.problem[state.problem[r]];
     double& unassigned = state.cost[r].unassigned;
-    unassigned += double(state.num_unserved[r]) * instance.unassigned_cost[b];
+    unassigned += double(state.num_unserved[r]) * problem.unassigned_cost;
     if (state.num_unserved[r] > 0) {
-        const Size& size = instance.size[b];
-        for (Int node = size.depots; node < size.depots + size.customers; ++node) {
-            if (!state.served(r, node)) unassigned += instance.unassigned_more(b, node);
+        for (Int node = problem.num_depots; node < problem.num_nodes; ++node) {
+            if (!state.served(r, node)) unassigned += problem.unassigned_more[node];
         }
     }
     state.done[r] = true;
@@ -389,12 +390,12 @@ void mark_fresh(const Instance& instance, State& state, Int scratch) {
     const Int row = scratch - 1;
     std::vector<Int> actions;
     std::vector<Outlook> outlooks;
-    for (Int b = 0; b < instance.size.size(); ++b) {
+    for (Int b = 0; b < instance.problem.size(); ++b) {
         state.problem[row] = b;
-        const Int most = 2 * instance.size[b].customers + 1;
+        const Int most = most_actions(instance.problem[b]);
         actions.resize(std::size_t(most));
         outlooks.resize(std::size_t(most));
-        for (Int k = 0; k < instance.size[b].types; ++k) {
+        for (Int k = 0; k < instance.problem[b].num_types; ++k) {
             open_vehicle(instance, state, row, k);
             const Int found = legal_services({instance, state, row, scratch},
                                              {actions.data(), {most}}, {outlooks.data(), {most}});

@@ -13,9 +13,8 @@
 
 namespace tandem {
 
-// Add the cost of the vehicle in the log, of type `k` in problem `b`.
-void add_cost(const Instance& instance, const Setting& setting, const VehicleLog& log, Int b, Int k,
-              Cost& cost);
+// Add the cost of the vehicle in the log, of type `k`.
+void add_cost(const Setting& setting, const VehicleLog& log, Int k, Cost& cost);
 
 // Tell whether a vehicle of type `k` that has made so many trips may begin one at a depot, by what
 // is left there.

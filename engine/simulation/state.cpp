@@ -11,15 +11,15 @@ namespace {
 // Of drones that any vehicle has, at least one.
 Int most_drones(const Instance& instance) {
     Int most = 1;
-    for (Int b = 0; b < instance.size.size(); ++b) {
-        for (const VehicleType& type : instance.type[b]) most = std::max(most, type.drones);
+    for (const ProblemTables& problem : instance.problem) {
+        for (const VehicleType& type : problem.type) most = std::max(most, type.drones);
     }
     return most;
 }
 
 Int most_customers(const Instance& instance) {
     Int most = 0;
-    for (const Size& size : instance.size) most = std::max(most, size.customers);
+    for (const ProblemTables& problem : instance.problem) most = std::max(most, customers_of(problem));
     return most;
 }
 
@@ -27,17 +27,17 @@ Int most_customers(const Instance& instance) {
 
 State::State(const Instance& instance, Int rows)
     : problem({rows}),
-      served({rows, instance.node.shape(2)}),
+      served({rows, instance.problem[0].node.shape(1)}),
       num_unserved({rows}),
-      used({rows, instance.type.shape(1)}),
-      taken({rows, instance.hub.shape(1)}),
-      starts({rows, instance.across.shape(1) > 0 ? instance.node.shape(2) : 0}),
+      used({rows, instance.problem[0].type.size()}),
+      taken({rows, instance.problem[0].hub.size()}),
+      starts({rows, !instance.problem[0].across.empty() ? instance.problem[0].node.shape(1) : 0}),
       done({rows}),
       vehicle({rows}),
       drone({rows, most_drones(instance)}),
       log(rows, most_customers(instance)),
       cost({rows}),
-      fresh({instance.size.size(), instance.type.shape(1), instance.node.shape(2)}) {
+      fresh({instance.problem.size(), instance.problem[0].type.size(), instance.problem[0].node.shape(1)}) {
     for (Vehicle& each : vehicle) clear_vehicle(each);
     for (Int row = 0; row < rows; ++row) {
         std::ranges::fill(starts[row], none);
@@ -50,7 +50,7 @@ State::State(const Instance& instance, View<const Int, 1> problems, Int scratch)
     mark_fresh(instance, *this, problems.size());
     for (Int r = 0; r < problems.size(); ++r) {
         problem[r] = problems[r];
-        num_unserved[r] = instance.size.at(problems[r]).customers;
+        num_unserved[r] = customers_of(instance.problem.at(problems[r]));
     }
 }
 

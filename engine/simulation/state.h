@@ -4,6 +4,7 @@
 #include "rows.h"
 #include "rules/flight.h"
 #include "rules/leg.h"
+#include "rules/pair.h"
 
 namespace tandem {
 
@@ -118,32 +119,39 @@ inline VehicleLog log_of(const VehicleLogs& logs, Int r) {
 
 // What one vehicle type meets in one problem. What is said of drones holds where they are of one
 // type, else `drone_kind_of` tells.
-struct Setting {
-    Int num_depots;
-    NodeTable node;
-    NodeTable node_by_air;       // as drones meet them
-    View<const Int, 3> amount;   // (node, tier, amounts); no tiers where `Node::demand` tells all
-    View<const Goods, 1> goods;  // (node,) none where all go together
-    View<const Int, 1> max_time_aboard;  // (node,) ms, none where nothing is limited
-    View<const Pair, 1> pair;            // (node,) none where nobody belongs together
-    View<const Int, 1> max_between;      // (node,) ms, none where no shipment is limited
-    View<const Lag, 2> lag;              // (node, rank) none where nobody is served behind others
-    View<const Lag, 2> across;           // (node, rank) none likewise, of any vehicles
-    View<const Int, 1> starts;           // (node,) when vehicles closed begin to serve, or `none`
-    View<const bool, 1> no_launch;       // (node,) none where drones may take off anywhere
-    View<const Int, 1> zones;            // (node,) with hours that hold it, none where none do
+struct Setting : ProblemTables {
+    Setting(const Instance& instance, Int b, Int k)
+        : ProblemTables(instance.problem[b]),
+          types(ProblemTables::type),
+          type(types[k]),
+          nodes(ProblemTables::node),
+          node(nodes.by_truck(type)),
+          node_by_air(nodes.by_air(type)),
+          between(limits_of(max_between, k)),
+          durations(instance.duration[b]),
+          distances(instance.distance[b]),
+          drive(durations[type.travel]),
+          fly(durations[type.drone_travel]),
+          fly_home(durations[type.home_travel]),
+          can_fly(instance.can_fly[b]),
+          profile_time(ProblemTables::profile_time[k]),
+          profile_factor(ProblemTables::profile_factor[k]) {}
+
+    View<const VehicleType, 1> types;  // (row,)
     const VehicleType& type;
+    NodeTables nodes;
+    NodeTable node;
+    NodeTable node_by_air;              // as drones meet them
+    View<const Int, 1> between;         // (node,) `max_between`, none where no shipment is limited
+    View<const Int, 1> starts;          // (node,) when vehicles closed begin to serve, or `none`
+    View<const Int, 3> durations;       // (travel, node, node) ms
+    View<const Int, 3> distances;       // (travel, node, node) mm
     View<const Int, 2> drive;           // (node, node) ms
     View<const Int, 2> fly;             // (node, node) ms
     View<const Int, 2> fly_home;        // (node, node) ms, to where the truck is
-    View<const Setup, 1> setup;         // (node,) none where nobody sets up
+    View<const bool, 2> can_fly;        // (row, node)
     View<const Int, 1> profile_time;    // (change,)
     View<const Int, 1> profile_factor;  // (change + 1,)
-    View<const VehicleType, 1> types;   // (row,)
-    NodeTables nodes;
-    View<const Int, 3> durations;  // (travel, node, node) ms
-    View<const Int, 3> distances;  // (travel, node, node) mm
-    View<const bool, 2> can_fly;   // (row, node)
 };
 
 // What a type of drones meets.

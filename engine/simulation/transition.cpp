@@ -195,7 +195,7 @@ void come_home(const Setting& setting, Vehicle& vehicle) {
 
 OpenVehicle open_vehicle_of(const Instance& instance, Int b, const State& state, Int row) {
     Vehicle& vehicle = state.vehicle[row];
-    Setting setting = setting_of(instance, b, vehicle.type);
+    Setting setting(instance, b, vehicle.type);
     setting.starts = state.starts[row];
     return {setting, vehicle, log_of(state.log, row), state.drone[row].first(setting.type.drones)};
 }
@@ -325,7 +325,7 @@ void clear_vehicle(Vehicle& vehicle) {
 }
 
 void open_vehicle(const Instance& instance, State& state, Int r, Int k) {
-    const View<const VehicleType, 1> types = instance.type[state.problem[r]];
+    const View<const VehicleType, 1> types = instance.problem[state.problem[r]].type;
     const VehicleType& type = types[k];
     Vehicle& vehicle = state.vehicle[r];
     const Int parted = vehicle.parted | vehicle.kept_by_vehicle;
@@ -369,7 +369,7 @@ void close_vehicle(const Instance& instance, State& state, Int r) {
     if (log.count.trips == 0) return;
     note_starts(open, state.starts[r]);
     note_taken(instance, state, r);
-    add_cost(instance, setting, log, b, vehicle.type, state.cost[r]);
+    add_cost(setting, log, vehicle.type, state.cost[r]);
 }
 
 }  // namespace tandem

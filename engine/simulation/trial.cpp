@@ -327,7 +327,7 @@ bool may_reload(const Rollout& rollout, Int place, Outlook& outlook) {
     const Int b = state.problem[r];
     const Vehicle& vehicle = state.vehicle[r];
     const Int k = vehicle.type;
-    const VehicleType& type = instance.type(b, k);
+    const VehicleType& type = instance.problem[b].type[k];
     const View<const Int, 2> legs = instance.distance[b][type.travel];
     const Int home = type.ends_at;
     const Int reach = longest_trip(type);
@@ -335,13 +335,11 @@ bool may_reload(const Rollout& rollout, Int place, Outlook& outlook) {
         !may_take_off(instance, state, r, k, place, state.log.count[r].trips)) {
         return false;
     }
-    const Size& size = instance.size[b];
-    const View<const Goods, 1> goods = instance.goods[b];
-    const Setting setting = setting_of(instance, b, k);
+    const Setting setting(instance, b, k);
     const Leg driven = vehicle.legs + leg_of(setting, vehicle.node, place);
-    for (Int node = size.depots; node < size.depots + size.customers; ++node) {
-        if (state.served(r, node) || is_delivery(instance.pair[b], node)) continue;
-        if (some_apart(goods) && !may_follow(goods[node], vehicle)) continue;
+    for (Int node = setting.num_depots; node < setting.num_nodes; ++node) {
+        if (state.served(r, node) || is_delivery(setting.pair, node)) continue;
+        if (some_apart(setting.goods) && !may_follow(setting.goods[node], vehicle)) continue;
         if (instance.can_drive(b, k, node) && legs(place, node) + legs(node, home) <= reach &&
             may_drive_by(setting, driven, place, node) &&
             legal_by_trial(rollout, place, {node, false}, outlook)) {

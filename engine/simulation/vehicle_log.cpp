@@ -138,7 +138,7 @@ template <bool writes>
 class Replay {
 public:
     Replay(const Setting& setting, const VehicleLog& log) : setting_(setting), log_(log) {
-        if (some_limited(setting.max_between)) {
+        if (some_limited(setting.between)) {
             served_.resize(std::size_t(log.count.stops));
         }
         if (!setting.lag.empty()) {
@@ -294,13 +294,13 @@ private:
             const Int pickup = log_.stop[before].node;
             if (!brings(setting_.pair, pickup, node)) continue;
             const Int left = served_[std::size_t(before)];
-            if (excess_between(setting_.max_between, pickup, left, start) > 0) return false;
+            if (excess_between(setting_.between, pickup, left, start) > 0) return false;
         }
         for (const LoggedSortie& sortie : log_.sortie.first(log_.count.sorties)) {
             const Int pickup = sortie.node;
             if (!brings(setting_.pair, pickup, node)) continue;
             const Int left = sortie.trial_ready;
-            if (excess_between(setting_.max_between, pickup, left, start) > 0) return false;
+            if (excess_between(setting_.between, pickup, left, start) > 0) return false;
         }
         return true;
     }
@@ -514,12 +514,12 @@ Int excess_under_way(const Setting& setting, const VehicleLog& log, Int delivery
         const Int pickup = stop.node;
         if (!brings(setting.pair, pickup, delivery)) continue;
         const Int left = stop.start + setting.node[pickup].service_duration();
-        most = std::max(most, excess_between(setting.max_between, pickup, left, start));
+        most = std::max(most, excess_between(setting.between, pickup, left, start));
     }
     for (const LoggedSortie& sortie : log.sortie.first(log.count.sorties)) {
         if (!brings(setting.pair, sortie.node, delivery)) continue;
         most =
-            std::max(most, excess_between(setting.max_between, sortie.node, sortie.ready, start));
+            std::max(most, excess_between(setting.between, sortie.node, sortie.ready, start));
     }
     return most;
 }
@@ -565,7 +565,7 @@ Int waits_for_calm(const Setting& setting, const VehicleLog& log) {
 Int most_excess(const Setting& setting, const VehicleLog& log) {
     Int most = -far;
     if (some_limited(setting.max_time_aboard)) most = excess_of_parcels(setting, log);
-    if (some_limited(setting.max_between)) most = std::max(most, excess_of_pairs(setting, log));
+    if (some_limited(setting.between)) most = std::max(most, excess_of_pairs(setting, log));
     if (!setting.lag.empty()) {
         const Int first = log.trip[log.count.trips - 1].first_stop;
         most = std::max(most, logged_starts(log).most_excess(setting, first));

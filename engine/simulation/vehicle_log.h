@@ -7,46 +7,11 @@
 
 #include "rules/driving.h"
 #include "rules/flown_trip.h"
-#include "rules/pair.h"
 #include "simulation/state.h"
 
 namespace tandem {
 
 constexpr Int in_flight = -1;  // recovery stop of a sortie until it is recovered
-
-// What vehicle type `k` meets in problem `b`.
-inline Setting setting_of(const Instance& instance, Int b, Int k) {
-    const VehicleType& type = instance.type(b, k);
-    const NodeTables nodes = instance.node[b];
-    const View<const Int, 3> durations = instance.duration[b];
-    return {
-        .num_depots = instance.size[b].depots,
-        .node = nodes.by_truck(type),
-        .node_by_air = nodes.by_air(type),
-        .amount = instance.amount[b],
-        .goods = instance.goods[b],
-        .max_time_aboard = instance.max_time_aboard[b],
-        .pair = instance.pair[b],
-        .max_between = limits_of(instance.max_between[b], k),
-        .lag = instance.lag[b],
-        .across = instance.across[b],
-        .starts = {},
-        .no_launch = instance.no_launch[b],
-        .zones = instance.zones[b],
-        .type = type,
-        .drive = durations[type.travel],
-        .fly = durations[type.drone_travel],
-        .fly_home = durations[type.home_travel],
-        .setup = instance.setup[b],
-        .profile_time = instance.profile_time[b][k],
-        .profile_factor = instance.profile_factor[b][k],
-        .types = instance.type[b],
-        .nodes = nodes,
-        .durations = durations,
-        .distances = instance.distance[b],
-        .can_fly = instance.can_fly[b],
-    };
-}
 
 // What drones meet whose type is at a row.
 inline DroneKind drone_kind_of(const Setting& setting, Int row) {
@@ -167,7 +132,7 @@ Int excess_under_way(const Setting& setting, const VehicleLog& log, Int delivery
 
 // Whether trips may have to be held back.
 inline bool holds_count(const Setting& setting) {
-    return some_limited(setting.max_time_aboard) || some_limited(setting.max_between) ||
+    return some_limited(setting.max_time_aboard) || some_limited(setting.between) ||
            !setting.lag.empty() || bounds_trips(setting.type);
 }
 

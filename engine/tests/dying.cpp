@@ -13,7 +13,7 @@ constexpr std::int64_t deadly = 13;
 
 extern "C" int tandem_open_search(const tandem_problem_data* data, int64_t routes, int64_t stops,
                                   int64_t trips, int64_t sorties, tandem_search** search) {
-    if (data->num_nodes - data->num_depots == deadly) std::abort();
+    if (data->problem.num_nodes - data->problem.num_depots == deadly) std::abort();
     using Open = decltype(&tandem_open_search);
     static const auto open = reinterpret_cast<Open>(dlsym(RTLD_NEXT, "tandem_open_search"));
     return open(data, routes, stops, trips, sorties, search);

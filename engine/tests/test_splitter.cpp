@@ -55,13 +55,13 @@ struct Day {
 
     ProblemData data() {
         tandem_problem_data raw{};
-        raw.num_depots = 1;
-        raw.num_nodes = nodes;
-        raw.num_types = 1;
+        raw.problem.num_depots = 1;
+        raw.problem.num_nodes = nodes;
+        raw.problem.num_types = 1;
         raw.strategy.loops = raw.strategy.crossings = true;
-        raw.place = {node.data(), {1, nodes, 1}};
-        raw.type = {type.data(), {1}};
-        raw.rate = {rate.data(), {1}};
+        raw.problem.node = {node.data(), {1, nodes, 1}};
+        raw.problem.type = {type.data(), {1}};
+        raw.problem.rate = {rate.data(), {1}};
         raw.can = {can.data(), {1, 2, nodes}};
         raw.leg.stated = raw.back.stated = {legs.data(), {2, nodes, nodes, 2}};
         return data_of(raw);

@@ -35,6 +35,10 @@ from model.problem import (
     Customer, IntArray, Problem, has_timed_zones, shares_chargers,
 )
 
+SIZE = np.dtype((np.record, [
+    (name, np.int64) for name in ("depots", "customers", "types", "dimensions")]))
+"""How many of each a problem has."""
+
 MAX_NEIGHBOURS = 24
 """How many nearest customers of each node are kept."""
 
@@ -45,8 +49,28 @@ AMOUNTS = 2 * DIMENSIONS_PER_TIER + 2
 """Of a tier at a node: what is delivered, what is picked up, and both sums over all dimensions."""
 
 
+class ProblemTables(Struct):
+    """What is packed of one problem, for policies and the search alike."""
+
+
 class Instance(Struct):
     """Packed problems."""
+
+    @property
+    def problem(self) -> list[ProblemTables]:
+        """Return each problem's tables."""
+        return [self.tables(row) for row in range(len(self.size))]
+
+    def tables(self, row: int) -> ProblemTables:
+        """Return the tables of one problem."""
+        depots, customers, types, _ = self.size[row].tolist()
+        return ProblemTables(num_depots=depots, num_nodes=depots + customers, num_types=types,
+                             **{name: getattr(self, name)[row] for name in BY_PROBLEM})
+
+
+SIZES = {"num_depots", "num_nodes", "num_types"}
+BY_PROBLEM = set(ProblemTables._fields) - SIZES
+"""Arrays of which each problem has a row."""
 
 
 def pack(problems: Sequence[Problem], legs: bool = True, pause: Pause = go_on) -> Instance:
@@ -87,7 +111,7 @@ def _empty(problems: Sequence[Problem], types: int, variants: int, travels: int,
     apart = any(problem.limits_company for problem in problems)
     forbidden = any(each.forbids_launches for each in problems)
     instance = Instance(
-        size=np.zeros(rows, dtype_of("tandem_size")),
+        size=np.zeros(rows, SIZE),
         node=np.zeros((rows, variants, nodes, 1 + gaps), dtype_of("tandem_node")),
         amount=np.zeros((rows, nodes, num_tiers(problems, DIMENSIONS_PER_TIER), AMOUNTS), np.int64),
         price=np.zeros((rows, nodes), dtype_of("tandem_price")),

@@ -11,10 +11,18 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from model.engine.header import (
-    dtype_of_type, interface, is_laid_out_as, name_of, pointer_to,
+    dtype_of_type, interface, is_laid_out_as, is_row, name_of, pointer_to,
 )
 
-Encode = Callable[[Any, list[Any]], None]
+class Numbers(list[Any]):
+    """Numbers that stand for a value in memory, and what else they point to."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.kept: list[bytes] = []
+
+
+Encode = Callable[[Any, Numbers], None]
 """Appends the numbers that stand for a value in memory. Raises a TypeError that names the field."""
 
 LEGS = "tandem_legs"
@@ -36,11 +44,11 @@ class Packed:
     def __init__(self, value: Any, pointer: Any) -> None:
         """Pack a value as the C struct that a type of pointers points to."""
         layout, encode = _packing(pointer.item)
-        numbers: list[Any] = []
+        numbers = Numbers()
         encode(value, numbers)
         self.kind = pointer.item
         self.pointer = interface().from_buffer(pointer, layout.pack(*numbers))
-        self._value = value
+        self._value = value, numbers.kept
 
 
 def packed(value: Any, name: str = "") -> Packed:
@@ -113,6 +121,8 @@ def _plan(kind: Any, path: str) -> _Plan:
         return _Plan(_FORMATS[kind.cname], _number(kind, path))
     if is_view(kind):
         (_, data), (_, shape) = kind.fields
+        if data.type.item.kind == "struct" and not is_row(data.type.item):
+            return _Plan("Qq", _structs(data.type.item))
         return _Plan(f"Q{shape.type.length}q",
                      _array(dtype_of_type(data.type.item), shape.type.length, path))
     if kind.kind != "struct":
@@ -134,7 +144,7 @@ def _with_gaps(kind: Any, formats: list[str]) -> str:
 def _number(kind: Any, path: str) -> Encode:
     number = number_of(kind, path)
 
-    def encode(value: Any, numbers: list[Any]) -> None:
+    def encode(value: Any, numbers: Numbers) -> None:
         numbers.append(number(value))
 
     return encode
@@ -144,7 +154,7 @@ def _array(dtype: np.dtype[Any], dimensions: int, path: str) -> Encode:
     from_buffer, cast = interface().from_buffer, interface().cast
     integer = pointer_to("uintptr_t").item
 
-    def encode(value: Any, numbers: list[Any]) -> None:
+    def encode(value: Any, numbers: Numbers) -> None:
         try:
             if value.ndim == dimensions and (value.dtype is dtype or value.dtype == dtype
                                              or is_laid_out_as(value.dtype, dtype)):
@@ -155,6 +165,24 @@ def _array(dtype: np.dtype[Any], dimensions: int, path: str) -> Encode:
             pass
         raise TypeError(f"{path}: an array of {_shown(dtype)}, of {dimensions} dimensions and row "
                         f"by row, was expected, not {_told(value)}")
+
+    return encode
+
+
+def _structs(kind: Any) -> Encode:
+    """Return how a list of structs of arrays is encoded, which are laid out one behind another."""
+    layout, encode_each = _packing(kind)
+    from_buffer, cast = interface().from_buffer, interface().cast
+    integer = pointer_to("uintptr_t").item
+
+    def encode(value: Any, numbers: Numbers) -> None:
+        rows = []
+        for each in value:
+            row = Numbers()
+            encode_each(each, row)
+            rows.append(layout.pack(*row))
+        numbers.kept.append(b"".join(rows))
+        numbers.extend((int(cast(integer, from_buffer(numbers.kept[-1]))), len(value)))
 
     return encode
 
@@ -170,7 +198,7 @@ def _fields(plans: dict[str, _Plan], path: str) -> Encode:
                             f"{kind.__name__} of {', '.join(getattr(kind, '_fields', ()))}")
         known.add(kind)
 
-    def encode(value: Any, numbers: list[Any]) -> None:
+    def encode(value: Any, numbers: Numbers) -> None:
         if type(value) not in known:
             check(type(value))
         for encode_field, field in zip(encoders, read(value), strict=True):
@@ -187,7 +215,7 @@ def _legs(plans: dict[str, _Plan], path: str) -> Encode:
     not_stated = nothing.pop("stated")
     not_computed = list(chain.from_iterable(nothing.values()))
 
-    def encode(value: Any, numbers: list[Any]) -> None:
+    def encode(value: Any, numbers: Numbers) -> None:
         if isinstance(value, np.ndarray):
             stated(value, numbers)
             numbers.extend(not_computed)

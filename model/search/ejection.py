@@ -37,8 +37,8 @@ def can_eject(data: ProblemData) -> bool:
                   or kind["keeps_hours"] or len(data.goods) or len(data.setup) or len(data.hub))
     pair, nodes = data.pair[first:], range(first, data.num_nodes)
     paired = (pair["partner"] >= 0).all() and (pair["next_place"] == list(nodes)).all()
-    own = data.place["release"].any() or data.amount[first:, :, :3].any()
-    return bool(once and anyhow and paired and data.place.shape[2] == 1 and not own)
+    own = data.node["release"].any() or data.amount[first:, :, :3].any()
+    return bool(once and anyhow and paired and data.node.shape[2] == 1 and not own)
 
 
 def by_ejection(data: ProblemData, searcher: Searcher, workers: list[SearchThread], span: Cooling,

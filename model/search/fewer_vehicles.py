@@ -67,7 +67,7 @@ def _fewest(data: ProblemData) -> int:
     least = data.fairness.min_vehicles - int(data.fairness.used)
     if len(data.pair) or data.type["max_trips"][0] > 1:
         return max(1, least)
-    demand = data.place["demand"][0, data.num_depots:, 0].sum(axis=0)
+    demand = data.node["demand"][0, data.num_depots:, 0].sum(axis=0)
     capacity = data.type["capacity"][0][:len(demand)]
     some = capacity > 0
     return max(1, least, int(np.ceil(demand[some] / capacity[some]).max(initial=1)))

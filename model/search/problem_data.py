@@ -29,10 +29,6 @@ the search has soon made more of any plan."""
 WAYS_BY_END = 0.001
 """What ways of all vehicles cost at least, by what as much later a last end does."""
 
-AS_PACKED = (set(ProblemData._fields) & set(Instance._fields)) - {
-    "price", "rate", "unassigned_cost"}
-"""Tables that policies and the search read alike."""
-
 
 def make_data(problem: Problem, instance: Instance, moves: Moves = ALL_MOVES,
               neighbourhood: Neighbourhood | None = None,
@@ -57,22 +53,17 @@ def make_data(problem: Problem, instance: Instance, moves: Moves = ALL_MOVES,
     most_visits = max(1, int(visits.max()))
     halts = halts_of(problem, neighbourhood.numbering)
     must_serve, more = _must_serve(problem, instance), instance.unassigned_more[0]
-    as_packed = {name: getattr(instance, name)[0] for name in AS_PACKED}
+    tables = instance.tables(0)._replace(
+        price=_per_ms(instance.price[0]), rate=_per_unit(instance.rate[0]))
     return ProblemData(
-        **as_packed,
-        num_depots=problem.num_depots, num_nodes=problem.num_nodes,
-        num_types=len(problem.vehicle_types), max_visits=most_visits,
+        **vars(tables), max_visits=most_visits,
         strategy=strategy_of(problem, instance, moves, evaluation, swap, most_visits),
         fairness=_plan_prices(problem), all_optional=not bool(must_serve.any()),
-        unassigned_cost=float(instance.unassigned_cost[0]),
         unassigned_costs_differ=bool((more > 0.0).any()), must_serve=must_serve,
-        place=instance.node[0],
         span=np.zeros(instance.across.shape[1], dtype_of("tandem_span")),
         plugging=np.zeros(2 * problem.num_nodes + 1 if limits_chargers(problem) else 0,
                           dtype_of("tandem_plugging")),
-        **halts._asdict(), price=_per_ms(instance.price[0]), rate=_per_unit(instance.rate[0]),
-        evaluation=evaluation, visits=visits,
-        can=_can(instance, halts),
+        **halts._asdict(), evaluation=evaluation, visits=visits, can=_can(instance, halts),
         swap=swap, splice=_splices(problem, instance.rate[0], swap),
         leg=neighbourhood.leg, back=neighbourhood.back,
         near=neighbourhood.near, granular=neighbourhood.granular,
@@ -156,7 +147,7 @@ def from_one_place(data: ProblemData) -> bool:
 
 def only_loads_limit(data: ProblemData) -> bool:
     """Tell whether trucks make one trip each, whenever they like."""
-    served = data.place[0, data.num_depots:, 0]
+    served = data.node[0, data.num_depots:, 0]
     return can_be_linked(data) and not bool(
         served["window_earliest"].any() or (served["window_latest"] < UNLIMITED).any())
 

@@ -129,13 +129,13 @@ constexpr Int all_slots = -1;
 inline bool has_window(const Stop& stop) { return stop.kind <= halt_stop; }
 
 // The problem, with the deadline of the thread whose data it is.
-struct ProblemData : tandem_problem_data {
+struct ProblemData : ProblemTables, tandem_problem_data {
     NodeTables place;
     Deadline deadline;
 };
 
 inline ProblemData data_of(const tandem_problem_data& from) {
-    return {from, from.place, Deadline(from.deadline)};
+    return {from.problem, from, from.problem.node, Deadline(from.deadline)};
 }
 
 // How many rows there are, as `model/search/route/room.py` counts them.

@@ -2,6 +2,7 @@
 
 from typing import NamedTuple
 
+from model.engine.instance import ProblemTables
 from model.engine.structs import Struct
 from model.problem import BoolArray
 
@@ -41,7 +42,12 @@ MEASURES = "duration", "stops", "load", "distance"
 
 
 class ProblemData(Struct):
-    """The problem, unchanged by the search."""
+    """The problem, unchanged by the search, and its tables."""
+
+    @property
+    def problem(self) -> ProblemTables:
+        """Return the tables alone."""
+        return ProblemTables(**{name: getattr(self, name) for name in ProblemTables._fields})
 
 
 def are_kept(data: ProblemData) -> BoolArray:

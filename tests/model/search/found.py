@@ -53,7 +53,7 @@ def beside_neighbours(data: ProblemData, routes: tuple[Route, ...], node: int) -
     """
     kind, rate = data.type[0], data.rate[0]
     assert isinstance(data.leg, np.ndarray)
-    legs, demand = data.leg[0, :, :, 1], data.place[0, :, 0]["demand"][:, 0]
+    legs, demand = data.leg[0, :, :, 1], data.node[0, :, 0]["demand"][:, 0]
     served = {stop.node: (nodes, p) for route in routes
               for nodes in [[stop.node for stop in route.trips[0].stops]]
               for p, stop in enumerate(route.trips[0].stops)}

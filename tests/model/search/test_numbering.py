@@ -48,7 +48,7 @@ def test_every_table_is_in_the_order_of_the_numbers() -> None:
         stated, along = (make_data(problem, instance, neighbourhood=made)
                          for made in neighbourhoods)
         node = neighbourhoods[1].numbering.node
-        for name, axes in (("place", (1,)), ("amount", (0,)), ("price", (0,)), ("goods", (0,)),
+        for name, axes in (("node", (1,)), ("amount", (0,)), ("price", (0,)), ("goods", (0,)),
                            ("setup", (0,)), ("max_time_aboard", (0,)), ("must_serve", (0,)),
                            ("unassigned_more", (0,)), ("reload", (1,)), ("can", (2,)),
                            ("leg", (1, 2)), ("back", (1, 2))):
