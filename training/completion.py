@@ -189,7 +189,7 @@ def complete(rest: ProblemRest, routes: Routes, turns: int, seed: int) -> Routes
     searcher = make_searcher(problem, data, _written(rest, routes), np.random.SeedSequence(seed))
     begin_anew(data, searcher, not routes)
     value = searcher.value
-    leg = leg_cost(data, searcher)
+    leg, _ = leg_cost(data, searcher)
     value.temperature = HOT * leg
     value.cooling = (COLD / HOT) ** (1 / max(1, turns))
     anneal(data, searcher, turns, ANY)

@@ -5,26 +5,20 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-/* Rows that others own, without gaps; in the engine, a view of them. */
+/* Rows that others own, without gaps: where the first is, and how many there are along each axis.
+   In the engine, a view of them; `model/engine/header.py` declares them for Python. */
 #ifdef __cplusplus
 #include "view.h"
-/* NOLINTNEXTLINE(bugprone-macro-parentheses): a type. */
-#define TANDEM_VIEW(name, row, axes) using name##_##axes##d = tandem::View<row, axes>
+/* NOLINTBEGIN(bugprone-macro-parentheses): types. */
+#define TANDEM_ROWS(name, row)              \
+    using name##_1d = tandem::View<row, 1>; \
+    using name##_2d = tandem::View<row, 2>; \
+    using name##_3d = tandem::View<row, 3>; \
+    using name##_4d = tandem::View<row, 4>; \
+    using name##_5d = tandem::View<row, 5>
+/* NOLINTEND(bugprone-macro-parentheses) */
 extern "C" {
-#else
-#define TANDEM_VIEW(name, row, axes)  \
-    typedef struct name##_##axes##d { \
-        row* data;                    \
-        int64_t shape[axes];          \
-    } name##_##axes##d
 #endif
-/* Of up to five axes. */
-#define TANDEM_ROWS(name, row) \
-    TANDEM_VIEW(name, row, 1); \
-    TANDEM_VIEW(name, row, 2); \
-    TANDEM_VIEW(name, row, 3); \
-    TANDEM_VIEW(name, row, 4); \
-    TANDEM_VIEW(name, row, 5)
 #pragma GCC visibility push(default)
 
 /* A node, as much as fits a line of the processor's cache: when its window opens; the last arrival
@@ -126,8 +120,7 @@ typedef struct tandem_vehicle_type {
     int64_t variant, drone_variant;
     int64_t points, battery, lands, climb_duration, descent_duration, charge;
     int64_t flies, takes_batteries, trips_uncharged, shares_chargers;
-    int64_t pickup_order;
-    int64_t lifo; /* whether only what was loaded last can be unloaded */
+    int64_t pickup_order, lifo; /* whether only what was loaded last can be unloaded */
     int64_t carried, capacity[9], payload[9];
     int64_t weights[24], cruise[24], hover[24], climb[24], descent[24];
     int64_t first_charge[256];
@@ -235,7 +228,6 @@ typedef struct tandem_search_values {
 } tandem_search_values;
 
 /* Arrays of others, row by row. */
-
 TANDEM_ROWS(tandem_bool, bool);
 TANDEM_ROWS(tandem_cost, tandem_cost);
 TANDEM_ROWS(tandem_evaluation, const tandem_evaluation);
@@ -285,8 +277,7 @@ typedef struct tandem_turns {
 
 typedef struct tandem_legs {
     tandem_i32_4d stated; /* (travel, origin, to, 2); null where some are computed */
-    tandem_i64_5d
-        table; /* (direction, table, node, node, 2); one direction if they are the same back */
+    tandem_i64_5d table; /* (direction, table, node, node, 2) one direction if those are the same */
     tandem_point_1d point; /* (node,) */
     tandem_leg_law_1d law; /* (travel,) */
 } tandem_legs;
@@ -295,17 +286,16 @@ typedef struct tandem_legs {
    rows. */
 typedef struct tandem_problem_tables {
     int64_t num_depots, num_nodes, num_types;
-    tandem_node_3d node;           /* (variant, node, 1 + gaps) */
-    tandem_i64_3d amount;          /* (node, tier, entry) none where the demand of nodes tells all */
-    tandem_price_1d price;         /* (node,) per hour; in a search, per ms */
-    tandem_goods_1d goods;         /* (node,) */
-    tandem_setup_1d setup;         /* (node,) */
+    tandem_node_3d node;   /* (variant, node, 1 + gaps) */
+    tandem_i64_3d amount;  /* (node, tier, entry) none where the demand of nodes tells all */
+    tandem_price_1d price; /* (node,) per hour; in a search, per ms */
+    tandem_goods_1d goods; /* (node,) */
+    tandem_setup_1d setup; /* (node,) */
     tandem_i64_1d max_time_aboard; /* (node,) ms, FAR without limit */
     tandem_pair_1d pair;           /* (node,) */
     tandem_i64_2d max_between;     /* (type, node) ms from a pickup to its delivery, likewise */
-    tandem_lag_2d lag;             /* (node, rank) */
-    tandem_lag_2d across;          /* (node, rank) behind others on any vehicle, by less than nothing
-                                      before them */
+    tandem_lag_2d lag, across;     /* (node, rank); the latter behind others on any vehicle, by less
+                                      than nothing before them */
     tandem_f64_2d vehicle_cost;    /* (type, node) of being served by it, on top of all else */
     tandem_bool_1d no_launch;      /* (node,) no drone takes off or is recovered there */
     tandem_i64_1d zones;           /* (node,) bits of the zones with hours that hold it */
@@ -313,9 +303,8 @@ typedef struct tandem_problem_tables {
     tandem_vehicle_type_1d type;   /* (row,) trucks first */
     tandem_rate_1d rate;           /* (row,) per km and hour; in a search, per mm and ms */
     tandem_bool_2d reload;         /* (type, node) where a trip may end and the next begin */
-    tandem_i64_2d profile_time;    /* (type, change) */
-    tandem_i64_2d profile_factor;  /* (type, change + 1) */
-    double unassigned_cost;        /* of whoever it costs least to leave out */
+    tandem_i64_2d profile_time, profile_factor; /* (type, change), (type, change + 1) */
+    double unassigned_cost;                     /* of whoever it costs least to leave out */
     tandem_f64_1d unassigned_more; /* (node,) what leaving out another costs above that */
 } tandem_problem_tables;
 
@@ -323,12 +312,10 @@ TANDEM_ROWS(tandem_problem_tables, const tandem_problem_tables);
 
 /* Problems as policies read them, padded to a common size. */
 typedef struct tandem_instance {
-    tandem_problem_tables_1d problem; /* (problem,) */
-    tandem_bool_3d can_drive; /* (problem, type, node) table, kind, skills and capacity allow it */
-    tandem_bool_3d can_fly;   /* (problem, type, node) likewise for its drones */
-    tandem_i64_4d duration;   /* (problem, travel, node, node) */
-    tandem_i64_4d distance;   /* (problem, travel, node, node) */
-    tandem_i64_3d neighbour;  /* (problem, node, rank) nearest customers first, -1 behind the last */
+    tandem_problem_tables_1d problem;  /* (problem,) */
+    tandem_bool_3d can_drive, can_fly; /* (problem, row, node) all allows a truck, or drones, to */
+    tandem_i64_4d duration, distance;  /* (problem, travel, node, node) */
+    tandem_i64_3d neighbour; /* (problem, node, rank) nearest customers first, -1 behind the last */
 } tandem_instance;
 
 /* Running plans, a row per rollout, then scratch rows. They belong to the engine. */
@@ -357,8 +344,7 @@ typedef struct tandem_scales {
     tandem_f64_1d near;    /* (problem,) ms from a customer to its nearest neighbour, mean */
     tandem_f64_1d horizon; /* (problem,) ms, the last limit stated, or a guess */
     tandem_f64_1d cost;    /* (problem,) cost of driving from a depot to a customer, mean */
-    tandem_f64_1d
-        amount; /* (problem,) total demand in the first dimension, or of pickups if more */
+    tandem_f64_1d amount;  /* (problem,) demand in the first dimension, or pickups if more */
 } tandem_scales;
 
 typedef struct tandem_observation {
@@ -372,25 +358,19 @@ typedef struct tandem_observation {
 } tandem_observation;
 
 typedef struct tandem_step_weights {
-    tandem_f32_2d globe;
-    tandem_f32_1d globe_bias;
-    tandem_f32_2d globe_output;
-    tandem_f32_1d globe_output_bias;
-    tandem_f32_2d action;
-    tandem_f32_1d action_bias;
-    tandem_f32_2d glimpse_bias, glimpse_output, action_query, action_mix;
-    tandem_f32_1d action_mix_bias, action_score;
+    tandem_f32_2d globe, globe_output, action, glimpse_bias, glimpse_output, action_query,
+        action_mix;
+    tandem_f32_1d globe_bias, globe_output_bias, action_bias, action_mix_bias, action_score;
 } tandem_step_weights;
 
 /* How a problem is searched: which moves there are, and where insertion looks. */
 typedef struct tandem_strategy {
-    bool loops;        /* sorties may end at the stop where they began */
-    bool crossings;    /* and at others */
-    bool two_opt_star; /* routes swap their tails */
-    bool resplit;      /* trips with one drone are split anew between truck and drone */
-    bool small_moves;  /* trips with one drone are annealed by small moves, too */
-    bool
-        swap_vehicles; /* vehicles drive each other's routes, whose distance tells what they cost */
+    bool loops;           /* sorties may end at the stop where they began */
+    bool crossings;       /* and at others */
+    bool two_opt_star;    /* routes swap their tails */
+    bool resplit;         /* trips with one drone are split anew between truck and drone */
+    bool small_moves;     /* trips with one drone are annealed by small moves, too */
+    bool swap_vehicles;   /* vehicles drive others' routes, whose distance tells what they cost */
     bool change_vehicles; /* routes are timed anew with vehicles of other types */
     bool scan_all;        /* insertion looks at all routes, else beside neighbours alone */
     bool keep_places;     /* customers' best places on routes are kept from turn to turn */
@@ -402,9 +382,8 @@ typedef struct tandem_strategy {
 /* What a plan costs as a whole: each ms until its last end, of how unequal what `measure` tells of
    its vehicles is, and each vehicle fewer than are to be used. */
 typedef struct tandem_fairness {
-    double makespan, balance;
+    double makespan, balance, too_few;
     int64_t measure, min_vehicles;
-    double too_few;
     double used; /* how many vehicles, the sum of their shares and of the squares, their last end */
     double sum, squares;
     int64_t latest;
@@ -422,8 +401,7 @@ typedef struct tandem_problem_data {
     tandem_span_1d span;          /* (node,) as a route is timed, if there are orders across any */
     tandem_plugging_1d plugging;  /* (number,) of other routes as one is timed, by depot and time,
                                      and how many in the last row; none where nobody waits */
-    tandem_bool_2d
-        halts; /* (type, depot) launch sites where it may stop; (0, 0) if there are none */
+    tandem_bool_2d halts;     /* (type, depot) launch sites where it may stop; (0, 0) without any */
     tandem_i64_1d halt_after; /* (depot,) who is served before a stop there, or -1 */
     tandem_f64_1d halt_cost;  /* (depot,) of each stop there */
     tandem_i32_2d near_halts; /* (node, rank) launch sites near a customer, -1 behind the last */
@@ -431,10 +409,8 @@ typedef struct tandem_problem_data {
     tandem_i64_1d visits;            /* (row,) customers on a sortie */
     tandem_bool_3d can;              /* (row, 2, node) by truck, by drone */
     tandem_bool_2d splice;           /* (type, type) vehicles may end each other's routes */
-    tandem_bool_2d
-        swap;         /* (type, type) may drive each other's routes at a cost by distance alone */
-    tandem_legs leg;  /* duration, distance */
-    tandem_legs back; /* the same, for those to a node */
+    tandem_bool_2d swap;    /* (type, type) may drive others' routes at a cost by distance alone */
+    tandem_legs leg, back;  /* duration, distance; the latter for those to a node */
     tandem_i32_2d near;     /* (node, rank) customers, nearest first, -1 behind the last */
     tandem_i32_2d granular; /* (node, rank) customers whom a truck would visit before or after */
     tandem_i64_1d deadline; /* (2,) when the search must end, as `model.engine.alarm` says */
@@ -458,8 +434,6 @@ typedef struct tandem_seen {
 } tandem_seen;
 
 /* Functions return 0, or -1 without memory, or -2 after any other failure. */
-
-/* Build. */
 
 int tandem_header(uint64_t* digest); /* of this file, the first 64 bits of its SHA-256 */
 
@@ -610,12 +584,10 @@ int tandem_open_search(const tandem_problem_data* data, int64_t routes, int64_t 
 int tandem_close_search(tandem_search* search);
 /* Tell where that is which Python sees. */
 int tandem_look_into(tandem_search* search, tandem_seen* seen);
-/* Tell what the customers left out cost. */
-int tandem_missing_cost(const tandem_problem_data* data, tandem_search* search, double* cost);
 /* Go on from the best routes. */
 int tandem_go_back(tandem_search* search);
 
-/* Search: insertion. */
+/* Search: insertion and moves. */
 
 /* Write the cheapest legal places of a customer, or of a shipment by its first pickup, on a route
    as it is and on trips more of it: what each costs, and its placements as node, how (0: by truck
@@ -626,8 +598,6 @@ int tandem_go_back(tandem_search* search);
 int tandem_write_places(const tandem_problem_data* data, tandem_search* search, int64_t node,
                         int64_t slot, const tandem_f64_1d* costs, const tandem_i64_3d* placements,
                         int64_t* count);
-/* Search: moves. */
-
 /* Ruin and recreate; by an order, insert all who are left out instead. */
 int tandem_anneal(const tandem_problem_data* data, tandem_search* search, int64_t turns,
                   int64_t order);
@@ -645,12 +615,10 @@ int tandem_open_linked(const tandem_problem_data* data, tandem_search* search, i
 int tandem_close_linked(tandem_linked* linked);
 /* Link the routes of a search as they are, and of its best plan. */
 int tandem_tie(const tandem_problem_data* data, tandem_search* search, tandem_linked* linked);
-/* Ruin and recreate so many times among linked stops. */
+/* Ruin and recreate so many times among linked stops; by an order, link the routes of a search,
+   insert all who are left out and write them back instead. */
 int tandem_anneal_linked(const tandem_problem_data* data, tandem_search* search,
-                         tandem_linked* linked, int64_t turns);
-/* Link the routes of a search, insert all who are left out in an order and write them back. */
-int tandem_insert_linked(const tandem_problem_data* data, tandem_search* search,
-                         tandem_linked* linked, int64_t order);
+                         tandem_linked* linked, int64_t turns, int64_t order);
 /* Let the routes of a search, and of its best plan, be those that are linked. */
 int tandem_write_back(const tandem_problem_data* data, tandem_search* search,
                       tandem_linked* linked);
@@ -682,17 +650,16 @@ int tandem_write_nearest_types(const tandem_problem_data* data, const tandem_i64
 int tandem_write_pairs(const tandem_problem_data* data, int64_t k, int64_t ranks,
                        const tandem_i64_1d* keys);
 /* Join routes end to end, or `either_way` at either end, pair after pair; write who comes before
-   and behind each customer. */
+   and behind each customer, and how far the routes of all are whom the type may serve. */
 int tandem_join(const tandem_problem_data* data, int64_t k, int64_t ranks,
-                const tandem_i64_1d* keys, bool either_way, const tandem_i64_2d* beside);
-/* Tell how far the routes of all are whom a type may serve. */
-int tandem_length_of(const tandem_problem_data* data, int64_t k, const tandem_i64_2d* beside,
-                     int64_t* length);
+                const tandem_i64_1d* keys, bool either_way, const tandem_i64_2d* beside,
+                int64_t* length);
 /* Begin with the routes of a plan; those that break a rule are left to be planned anew. */
 int tandem_begin(const tandem_problem_data* data, tandem_search* search,
                  const tandem_i64_1d* numbers);
-/* Tell what the truck's legs between customers cost on average. */
-int tandem_leg_cost(const tandem_problem_data* data, tandem_search* search, double* cost);
+/* Tell what the truck's legs between customers cost on average, and what those left out do. */
+int tandem_leg_cost(const tandem_problem_data* data, tandem_search* search, double* cost,
+                    double* missing);
 /* Tell the routes of the best plan, whose trips begin as late as costs nothing; fails if nobody can
    drive one. */
 int tandem_tell_best(const tandem_problem_data* data, tandem_search* search, tandem_plan* plan);
@@ -720,15 +687,11 @@ int tandem_take_part(const tandem_problem_data* data, tandem_search* whole, tand
 /* Go on from all routes as they are, or from the best ones. */
 int tandem_take_all(const tandem_problem_data* data, tandem_search* whole, tandem_search* part);
 int tandem_take_best(const tandem_problem_data* data, tandem_search* search);
-/* Have a part's routes beside those there are, or alone, and whom it leaves out. */
+/* Have a part's routes, or its best, beside those there are, or alone, and whom it leaves out. */
 int tandem_add_routes(const tandem_problem_data* data, tandem_search* whole, tandem_search* part,
-                      bool alone);
-/* Likewise its best routes. */
-int tandem_add_best(tandem_search* whole, tandem_search* part, bool alone);
+                      bool best, bool alone);
 /* Let the best plan take over the parts of the routes as they are that cost less. */
 int tandem_take_better_parts(const tandem_problem_data* data, tandem_search* search);
-
-/* End of sections. */
 
 #pragma GCC visibility pop
 #ifdef __cplusplus

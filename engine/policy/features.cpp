@@ -319,8 +319,8 @@ void describe_opens(const Scene& scene, const State& state, Int r, double unserv
         if (kind_of(action) != ActionKind::open) continue;
         const Int k = target_of(action);
         ActionFeatures& feature = begin_candidate(seen, index, problem.node.shape(1) + k);
-        describe_open(problem.type[k], problem.rate[k].fixed, state.used(r, k), unserved,
-                      unit, feature);
+        describe_open(problem.type[k], problem.rate[k].fixed, state.used(r, k), unserved, unit,
+                      feature);
         if (state.vehicle[r].type == no_vehicle) continue;
         const Setting setting(instance, b, state.vehicle[r].type);
         const VehicleLog log = log_of(state.log, r);

@@ -89,10 +89,6 @@ int tandem_look_into(tandem_search* search, tandem_seen* seen) {
     });
 }
 
-int tandem_missing_cost(const tandem_problem_data* data, tandem_search* search, double* cost) {
-    return guarded([&] { *cost = missing_cost(data_of(*data), *search); });
-}
-
 int tandem_go_back(tandem_search* search) {
     return guarded([&] { go_back(*search); });
 }

@@ -199,10 +199,9 @@ int tandem_take_best(const tandem_problem_data* data, tandem_search* search) {
 }
 
 int tandem_add_routes(const tandem_problem_data* data, tandem_search* whole, tandem_search* part,
-                      bool alone) {
-    return guarded([&] { add_routes(data_of(*data), *whole, *part, alone); });
-}
-
-int tandem_add_best(tandem_search* whole, tandem_search* part, bool alone) {
-    return guarded([&] { add_best(*whole, *part, alone); });
+                      bool best, bool alone) {
+    return guarded([&] {
+        if (best) return add_best(*whole, *part, alone);
+        add_routes(data_of(*data), *whole, *part, alone);
+    });
 }

@@ -40,8 +40,7 @@ bool may_take_off(const Instance& instance, const State& state, Int r, Int k, In
     if (state.taken.shape(1) == 0) return true;
     const View<const Hub, 1> hub = instance.problem[state.problem[r]].hub;
     const VehicleType& type = instance.problem[state.problem[r]].type[k];
-    return has_battery_for(type, hub[depot],
-                           taken_at(instance, state, r, depot).batteries) &&
+    return has_battery_for(type, hub[depot], taken_at(instance, state, r, depot).batteries) &&
            (depot == type.depot || charges_away(type, hub[depot], trips)) &&
            has_charger_for(type, hub[type.depot], trips,
                            taken_at(instance, state, r, type.depot).chargers);

@@ -19,7 +19,8 @@ Int most_drones(const Instance& instance) {
 
 Int most_customers(const Instance& instance) {
     Int most = 0;
-    for (const ProblemTables& problem : instance.problem) most = std::max(most, customers_of(problem));
+    for (const ProblemTables& problem : instance.problem)
+        most = std::max(most, customers_of(problem));
     return most;
 }
 
@@ -37,7 +38,8 @@ State::State(const Instance& instance, Int rows)
       drone({rows, most_drones(instance)}),
       log(rows, most_customers(instance)),
       cost({rows}),
-      fresh({instance.problem.size(), instance.problem[0].type.size(), instance.problem[0].node.shape(1)}) {
+      fresh({instance.problem.size(), instance.problem[0].type.size(),
+             instance.problem[0].node.shape(1)}) {
     for (Vehicle& each : vehicle) clear_vehicle(each);
     for (Int row = 0; row < rows; ++row) {
         std::ranges::fill(starts[row], none);

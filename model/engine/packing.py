@@ -14,10 +14,12 @@ from model.engine.header import (
     dtype_of_type, interface, is_laid_out_as, is_row, name_of, pointer_to,
 )
 
+
 class Numbers(list[Any]):
     """Numbers that stand for a value in memory, and what else they point to."""
 
     def __init__(self) -> None:
+        """Begin with none."""
         super().__init__()
         self.kept: list[bytes] = []
 
@@ -47,8 +49,16 @@ class Packed:
         numbers = Numbers()
         encode(value, numbers)
         self.kind = pointer.item
-        self.pointer = interface().from_buffer(pointer, layout.pack(*numbers))
-        self._value = value, numbers.kept
+        written = _Written(layout.pack(*numbers))
+        written.kept = numbers.kept
+        self.pointer = interface().from_buffer(pointer, written)
+        self._value = value
+
+
+class _Written(bytes):
+    """A struct in memory, and what it points to beside arrays."""
+
+    kept: list[bytes]
 
 
 def packed(value: Any, name: str = "") -> Packed:

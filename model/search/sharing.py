@@ -85,8 +85,8 @@ class Crew:
             best = [min(self._rooms, key=lambda part: float(part.value.best))]
         self.whole.value.cost = sum(float(part.value.cost) for part in chosen)
         for number, part in enumerate(chosen):
-            call("tandem_add_routes", self._data, self.whole, part, number == 0)
-        keep_best_of(self.whole, best)
+            call("tandem_add_routes", self._data, self.whole, part, False, number == 0)
+        keep_best_of(self._data, self.whole, best)
 
 
 def make_rooms(data: ProblemData, whole: Searcher,
@@ -103,13 +103,13 @@ def take_all(data: ProblemData, whole: Searcher, part: Searcher) -> None:
     call("tandem_take_all", data, whole, part)
 
 
-def keep_best_of(whole: Searcher, parts: list[Searcher]) -> None:
+def keep_best_of(data: ProblemData, whole: Searcher, parts: list[Searcher]) -> None:
     """Let the best routes be those of all parts together if they cost less. In place."""
     cost = sum(float(part.value.best) for part in parts)
     if cost < float(whole.value.best) - ROUNDING:
         whole.value.best = cost
         for number, part in enumerate(parts):
-            call("tandem_add_best", whole, part, number == 0)
+            call("tandem_add_routes", data, whole, part, True, number == 0)
 
 
 def go_on_from_best(data: ProblemData, whole: Searcher) -> None:

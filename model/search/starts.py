@@ -71,4 +71,5 @@ class Starts:
 
     def gather(self) -> None:
         """Keep the best of all in the whole."""
-        keep_best_of(self._whole, [min(self._rooms, key=lambda room: float(room.value.best))])
+        best = min(self._rooms, key=lambda room: float(room.value.best))
+        keep_best_of(self._data, self._whole, [best])

@@ -4,7 +4,7 @@ import math
 from dataclasses import dataclass
 
 from model.search.fewer_vehicles import fixed_costs, vehicles_first
-from model.search.route.engine import leg_cost, missing_cost
+from model.search.route.engine import leg_cost
 from model.search.route.layout import ProblemData
 from model.search.route.state import Searcher
 from model.search.problem_data import are_alike, only_loads_limit
@@ -58,7 +58,8 @@ class Heat:
         """Measure the routes as they are, of thousands of customers if `is_large`."""
         missing, is_fleet = int(searcher.count.missing), vehicles_first(data, searcher)
         served = max(1, int(searcher.count.customers) - missing)
-        cost = float(searcher.value.cost) - missing_cost(data, searcher)
+        leg, left_out = leg_cost(data, searcher)
+        cost = float(searcher.value.cost) - left_out
         fairness = data.fairness
         lacking = fairness.min_vehicles - fairness.used - int(searcher.used.sum())
         cost -= max(0.0, lacking) * fairness.too_few
@@ -68,7 +69,7 @@ class Heat:
         # Where parts of trips have ends of shipments alone, none is split, but many fly.
         split = data.strategy.resplit or (bool((drones == 1).any()) and len(data.pair) > 0)
         large = is_large and are_alike(data) and only_loads_limit(data)
-        return cls(cost / served, leg_cost(data, searcher), data.num_types,
+        return cls(cost / served, leg, data.num_types,
                    bool((drones > 0).any()), split, data.strategy.small_moves,
                    large, is_fleet, from_trucks, hot, cold)
 

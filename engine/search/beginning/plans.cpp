@@ -32,6 +32,7 @@ void disband(const ProblemData& data, Searcher& searcher) {
         }
     }
     list_active(searcher);
+    searcher.value->cost = missing_cost(data, searcher) + plan_cost(data, searcher);
 }
 
 // Return how seldom those of a route were left out after a turn, and how few they are; least first.
@@ -171,8 +172,9 @@ void tell_sortie(const ProblemData& data, const VehicleType& drones, const Sorti
     for (Int index = 0; index < sortie.count; ++index) {
         const Int node = sortie.nodes[index], arrival = sortie.arrivals[index];
         const Int setup = setup_after(data.setup, from, node);
-        told.visit({node, arrival - setup, data.place[0][node].start_of_service(arrival),
-                    data.place.by_air(drones)[node].end_of_service(arrival), setup});
+        const Windows place = data.place.by_air(drones)[node];
+        const Int start = place.start_of_service(arrival);
+        told.visit({node, arrival - setup, start, start + place.service_duration(), setup});
         from = node;
     }
 }

@@ -372,11 +372,6 @@ void join_either_way(const ProblemData& data, Int k, Int ranks, View<const Int, 
 
 using namespace tandem;
 
-extern "C" int tandem_length_of(const tandem_problem_data* data, int64_t k,
-                                const tandem_i64_2d* beside, int64_t* length) {
-    return guarded([&] { *length = length_of(data_of(*data), k, *beside); });
-}
-
 extern "C" int tandem_write_nearest_types(const tandem_problem_data* data,
                                           const tandem_i64_1d* nearest) {
     return guarded([&] { write_nearest_types(data_of(*data), *nearest); });
@@ -391,11 +386,15 @@ extern "C" int tandem_write_pairs(const tandem_problem_data* data, int64_t k, in
 }
 
 extern "C" int tandem_join(const tandem_problem_data* data, int64_t k, int64_t ranks,
-                           const tandem_i64_1d* keys, bool either_way,
-                           const tandem_i64_2d* beside) {
+                           const tandem_i64_1d* keys, bool either_way, const tandem_i64_2d* beside,
+                           int64_t* length) {
     return guarded([&] {
         const ProblemData problem = data_of(*data);
-        if (either_way) return join_either_way(problem, k, ranks, *keys, *beside);
-        join(problem, k, ranks, *keys, *beside);
+        if (either_way) {
+            join_either_way(problem, k, ranks, *keys, *beside);
+        } else {
+            join(problem, k, ranks, *keys, *beside);
+        }
+        *length = length_of(problem, k, *beside);
     });
 }

@@ -134,7 +134,7 @@ double leg_cost(const ProblemData& data, const Searcher& searcher) {
         }
     }
     if (cost > 0.0) return cost / double(legs);
-    const double left_out = left_out_cost(data, searcher.missing, searcher.count->missing);
+    const double left_out = missing_cost(data, searcher);
     return std::max(1e-9, (searcher.value->cost - left_out) / double(data.num_nodes));
 }
 
@@ -166,7 +166,11 @@ extern "C" int tandem_begin(const tandem_problem_data* data, tandem_search* sear
     });
 }
 
-extern "C" int tandem_leg_cost(const tandem_problem_data* data, tandem_search* search,
-                               double* cost) {
-    return guarded([&] { *cost = leg_cost(data_of(*data), *search); });
+extern "C" int tandem_leg_cost(const tandem_problem_data* data, tandem_search* search, double* cost,
+                               double* missing) {
+    return guarded([&] {
+        const ProblemData problem = data_of(*data);
+        *cost = leg_cost(problem, *search);
+        *missing = missing_cost(problem, *search);
+    });
 }

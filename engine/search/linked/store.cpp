@@ -300,19 +300,11 @@ extern "C" int tandem_write_back(const tandem_problem_data* data, tandem_search*
 }
 
 extern "C" int tandem_anneal_linked(const tandem_problem_data* data, tandem_search* search,
-                                    tandem_linked* linked, int64_t turns) {
+                                    tandem_linked* linked, int64_t turns, int64_t order) {
     return guarded([&] {
         const ProblemData problem = data_of(*data);
         Searcher& searching = looking(problem, *search);
-        anneal_linked(problem, searching, *linked, turns);
-    });
-}
-
-extern "C" int tandem_insert_linked(const tandem_problem_data* data, tandem_search* search,
-                                    tandem_linked* linked, int64_t order) {
-    return guarded([&] {
-        const ProblemData problem = data_of(*data);
-        Searcher& searching = looking(problem, *search);
+        if (order < 0) return anneal_linked(problem, searching, *linked, turns);
         insert_linked(problem, searching, *linked, order);
     });
 }

@@ -9,7 +9,7 @@ from model.engine.alarm import has_rung
 from model.engine.library import call
 from model.search.linked.engine import insert_linked
 from model.search.linked.layout import Linked
-from model.search.route.engine import BY_FAR, BY_WIDTH, anneal, go_back, missing_cost
+from model.search.route.engine import BY_FAR, BY_WIDTH, anneal, go_back
 from model.search.route.layout import ProblemData
 from model.search.route.state import Searcher
 
@@ -74,6 +74,5 @@ def _construct(data: ProblemData, searcher: Searcher, linked: Linked | None) -> 
     """Plan anew by insertion in the best of several orders, if that is better. In place."""
     for order in CONSTRUCTED:
         call("tandem_disband", data, searcher)
-        searcher.value.cost = missing_cost(data, searcher) + data.fairness.unused
         insert_missing(data, searcher, order, linked)
     go_back(searcher)

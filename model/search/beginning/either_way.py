@@ -7,8 +7,7 @@ pieces than joining ends to beginnings, elsewhere it is a little worse: so both 
 
 import numpy as np
 
-from model.problem import IntArray
-from model.search.beginning.savings import cost_of, joined, ranked_pairs, routes_of
+from model.search.beginning.savings import Joined, cost_of, joined, ranked_pairs, routes_of
 from model.search.route.layout import NOWHERE, ProblemData
 
 
@@ -27,8 +26,8 @@ def shortest_routes(data: ProblemData, k: int) -> list[list[int]]:
     keys = ranked_pairs(data, k, ranks)
     ways = [joined(data, k, ranks, keys, either_way) for either_way in (False, True)]
 
-    def cost(beside: IntArray) -> tuple[int, float]:
-        routes = int(np.count_nonzero(beside[0, data.num_depots:] == NOWHERE))
-        return max(0, routes - count), cost_of(data, k, beside)
+    def cost(found: Joined) -> tuple[int, float]:
+        routes = int(np.count_nonzero(found.beside[0, data.num_depots:] == NOWHERE))
+        return max(0, routes - count), cost_of(data, k, found)
 
     return routes_of(data, k, min(ways, key=cost))

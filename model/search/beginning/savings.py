@@ -10,9 +10,18 @@ import math
 
 import numpy as np
 
+from typing import NamedTuple
+
 from model.engine.library import call
 from model.problem import BoolArray, IntArray
 from model.search.route.layout import NOWHERE, ProblemData
+
+class Joined(NamedTuple):
+    """Customers joined to routes."""
+
+    beside: IntArray  # (2, node) who comes before and behind each
+    length: int  # of all routes, in mm
+
 
 NEIGHBOURS = 64
 """With how many neighbours each customer's route may be joined."""
@@ -42,23 +51,22 @@ def ranked_pairs(data: ProblemData, k: int, ranks: int) -> IntArray:
 
 
 def joined(data: ProblemData, k: int, ranks: int, keys: IntArray,
-           either_way: bool = False) -> IntArray:
-    """Return who comes before and behind each, (2, node), joined by such keys in order."""
+           either_way: bool = False) -> Joined:
+    """Return routes that are joined by such keys in order."""
     beside = np.full((2, data.num_nodes), NOWHERE)
-    call("tandem_join", data, k, ranks, keys, either_way, beside)
-    return beside
+    return Joined(beside, call("tandem_join", data, k, ranks, keys, either_way, beside))
 
 
-def routes_of(data: ProblemData, k: int, beside: IntArray) -> list[list[int]]:
+def routes_of(data: ProblemData, k: int, found: Joined) -> list[list[int]]:
     """Return the customers of each route, in order."""
-    behind = beside[1].tolist()
-    return [_customers(behind, head) for head in np.flatnonzero(_heads(data, k, beside)).tolist()]
+    behind, heads = found.beside[1].tolist(), _heads(data, k, found)
+    return [_customers(behind, head) for head in np.flatnonzero(heads).tolist()]
 
 
-def cost_of(data: ProblemData, k: int, beside: IntArray) -> float:
+def cost_of(data: ProblemData, k: int, found: Joined) -> float:
     """Return what routes of a type cost but for their stops."""
-    routes, rate = np.count_nonzero(_heads(data, k, beside)), data.rate[k]
-    return float(routes * rate.fixed + call("tandem_length_of", data, k, beside) * rate.distance)
+    routes, rate = np.count_nonzero(_heads(data, k, found)), data.rate[k]
+    return float(routes * rate.fixed + found.length * rate.distance)
 
 
 def cost_by_savings(data: ProblemData, k: int) -> float:
@@ -81,15 +89,15 @@ def by_nearest(data: ProblemData) -> BoolArray:
     return can
 
 
-def _heads(data: ProblemData, k: int, beside: IntArray) -> BoolArray:
+def _heads(data: ProblemData, k: int, found: Joined) -> BoolArray:
     """Mark the customers (node,) with whom routes of a type begin."""
-    heads: BoolArray = data.can[k, 0] & (beside[0] == NOWHERE)
+    heads: BoolArray = data.can[k, 0] & (found.beside[0] == NOWHERE)
     heads[: data.num_depots] = False
     return heads
 
 
-def _chain(data: ProblemData, k: int) -> IntArray:
-    """Return who is beside whom, (2, node), joined by what following nearest neighbours saves."""
+def _chain(data: ProblemData, k: int) -> Joined:
+    """Return routes that are joined by what following nearest neighbours saves."""
     ranks = min(NEIGHBOURS, data.near.shape[1])
     return joined(data, k, ranks, ranked_pairs(data, k, ranks))
 

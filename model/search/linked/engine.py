@@ -3,6 +3,7 @@
 from model.engine.library import call
 from model.engine.packing import Packed
 from model.search.linked.layout import Linked
+from model.search.route.engine import ANY
 from model.search.route.layout import ProblemData
 from model.search.route.state import Searcher
 
@@ -15,7 +16,7 @@ def tie(data: ProblemData | Packed, searcher: Searcher, linked: Linked) -> None:
 def anneal_linked(data: ProblemData | Packed, searcher: Searcher, linked: Linked,
                   turns: int) -> None:
     """Ruin and recreate `turns` times among linked stops. In place. As `anneal`."""
-    call("tandem_anneal_linked", data, searcher, linked, turns)
+    call("tandem_anneal_linked", data, searcher, linked, turns, ANY)
 
 
 def insert_linked(data: ProblemData | Packed, searcher: Searcher, linked: Linked,
@@ -24,7 +25,7 @@ def insert_linked(data: ProblemData | Packed, searcher: Searcher, linked: Linked
 
     In place. Once the search must end, whoever is not inserted yet is left out.
     """
-    call("tandem_insert_linked", data, searcher, linked, order)
+    call("tandem_anneal_linked", data, searcher, linked, 0, order)
 
 
 def write_back(data: ProblemData | Packed, searcher: Searcher,

@@ -30,11 +30,6 @@ def anneal(data: ProblemData | Packed, searcher: Searcher, turns: int, order: in
     call("tandem_anneal", data, searcher, turns, order)
 
 
-def missing_cost(data: ProblemData | Packed, searcher: Searcher) -> float:
-    """Return what the customers left out cost."""
-    return float(call("tandem_missing_cost", data, searcher))
-
-
 def go_back(searcher: Searcher) -> None:
     """Go on from the best routes. In place."""
     call("tandem_go_back", searcher)
@@ -45,9 +40,10 @@ def take_better_parts(data: ProblemData | Packed, searcher: Searcher) -> None:
     call("tandem_take_better_parts", data, searcher)
 
 
-def leg_cost(data: ProblemData | Packed, searcher: Searcher) -> float:
-    """Return what the truck's legs between customers cost on average.
+def leg_cost(data: ProblemData | Packed, searcher: Searcher) -> tuple[float, float]:
+    """Return what the truck's legs between customers cost on average, and those left out in all.
 
-    Where there are none, a share of the whole cost; always above zero.
+    Where there are no legs, a share of the whole cost; always above zero.
     """
-    return float(call("tandem_leg_cost", data, searcher))
+    leg, missing = call("tandem_leg_cost", data, searcher)
+    return leg, missing

@@ -30,13 +30,6 @@ class PlanPrices(NamedTuple):
     squares: float = 0.0  # of their shares
     latest: int = 0  # ms, their last end
 
-    @property
-    def unused(self) -> float:
-        """Return what it costs that nobody else does anything."""
-        unequal = self.used * self.squares / self.sum - self.sum if self.sum > 0 else 0.0
-        return (self.makespan * self.latest + self.balance * max(0.0, unequal)
-                + self.too_few * max(0.0, self.min_vehicles - self.used))
-
 
 MEASURES = "duration", "stops", "load", "distance"
 

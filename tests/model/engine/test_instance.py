@@ -23,7 +23,7 @@ def test_a_row_holds_the_same_numbers_whatever_is_packed_with_it() -> None:
     together = pack(problems)
     for row, problem in enumerate(problems):
         alone = pack([problem])
-        for name in alone._fields:
+        for name in vars(alone):
             one, padded = getattr(alone, name)[0], getattr(together, name)[row]
             inside = tuple(slice(length) for length in one.shape)
             np.testing.assert_array_equal(padded[inside], one, err_msg=name)

@@ -29,7 +29,7 @@ def copied(data: ProblemData, searcher: Searcher) -> Searcher:
 def at_best(data: ProblemData, searcher: Searcher) -> Searcher:
     """Return another search that goes on from the best routes of one; costs are added up anew."""
     fresh, = make_rooms(data, searcher, [np.random.SeedSequence(0)])
-    call("tandem_add_best", fresh, searcher, True)
+    call("tandem_add_routes", data, fresh, searcher, True, True)
     go_on_from_best(data, fresh)
     return fresh
 

@@ -11,7 +11,7 @@ from model.search.beginning.translate import make_searcher
 from model.search.linked.engine import insert_linked, tie, write_back
 from model.search.linked.layout import Linked
 from model.search.problem_data import are_timed, make_data
-from model.search.route.engine import BY_FAR, anneal, missing_cost
+from model.search.route.engine import BY_FAR, anneal, leg_cost
 from model.solution import Route, Solution
 from tests.model.search.found import INFEASIBLE, beside_neighbours, copied, read_plan
 from training.instances import generate
@@ -50,7 +50,7 @@ def test_no_cheaper_place_beside_a_neighbour_is_passed_over(is_linked: bool) -> 
         assert searcher.count.missing == 1
         tie(data, searcher, linked)
         write_back(data, searcher, linked)
-        cost = searcher.value.cost - missing_cost(data, searcher)
+        cost = searcher.value.cost - leg_cost(data, searcher)[1]
         least = beside_neighbours(data, routes, int(node))
         if is_linked:
             insert_linked(data, searcher, linked, BY_FAR)
