@@ -93,7 +93,7 @@ void describe_drive(const Setting& setting, View<const Int, 1> neighbours,
         const Int latest = there.closing();
         const Int past = from_here[other], back = setting.drive(other, candidate.node);
         const Int then = leave + onward[other], directly = arrival - way + past;
-        if (place.lateness(there.end_of_service(none) + back) == 0) {
+        if (place.lateness(setting.served_at(other, none) + back) == 0) {
             later = std::min(later, back + place.waiting(latest + there.service_duration() + back));
         }
         if (then <= latest && asked(setting, other) <= left) {
@@ -102,7 +102,7 @@ void describe_drive(const Setting& setting, View<const Int, 1> neighbours,
         } else if (directly <= latest) {
             ++lost;
         }
-        if (directly <= latest && place.lateness(there.end_of_service(directly) + back) == 0) {
+        if (directly <= latest && place.lateness(setting.served_at(other, directly) + back) == 0) {
             detour = std::min(detour, past + back - way);
         }
     });

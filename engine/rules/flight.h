@@ -143,6 +143,9 @@ struct Flight {
     // How long it takes if nothing waits.
     Int duration() const { return out + place.service_duration() + home; }
 
+    // When the customer is served of a drone that takes off then.
+    Int served_at(Int takeoff) const { return place.end_of_service(takeoff + out); }
+
     // What it leaves of a full battery if nothing waits.
     Int left() const {
         const Int weight = weight_flown_out(place);
@@ -163,8 +166,7 @@ struct Flight {
         while (true) {
             Int held = held_until(earliest_back(place, takeoff + out, home), limit);
             if (held <= takeoff && storms_sometime(type)) {
-                held =
-                    calm_takeoff(type, takeoff, place.end_of_service(takeoff + out) + home, zones);
+                held = calm_takeoff(type, takeoff, served_at(takeoff) + home, zones);
             }
             if (held <= takeoff) return takeoff;
             takeoff = held;

@@ -235,7 +235,7 @@ Ride ride(const Setting& setting, const VehicleLog& log, const Vehicle& vehicle,
                                        : arrival;
     };
     const auto leaves = [&](Int arrival) {
-        return is_customer ? setting.node[to].end_of_service(ready(arrival)) : arrival;
+        return is_customer ? setting.served_at(to, ready(arrival)) : arrival;
     };
     const Int heavy =
         has_breaks(setting.type) ? too_heavy(setting, vehicle, drones, to, is_customer) : 0;

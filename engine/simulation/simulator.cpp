@@ -47,7 +47,7 @@ Verdict judge_drive(const OpenVehicle& open, std::optional<Int> earliest, Int no
     if (!holds_all(setting, vehicle, drones, node, true)) return Verdict::no;
     if (place.too_late(arrival)) return Verdict::no;
     const Int start = place.start_of_service(arrival);
-    const Int served = std::max(free, place.end_of_service(arrival));
+    const Int served = std::max(free, setting.served_at(node, arrival));
     const Int end = travel_arrival(setting, node, setting.type.ends_at, served);
     outlook = {arrival, start, end};
     Int departure = leaves_first(setting.type, leave);

@@ -152,6 +152,11 @@ struct Setting : ProblemTables {
     View<const bool, 2> can_fly;        // (row, node)
     View<const Int, 1> profile_time;    // (change,)
     View<const Int, 1> profile_factor;  // (change + 1,)
+
+    // When who is ready at a place has served there; at once at a depot.
+    Int served_at(Int place, Int ready) const {
+        return place < num_depots ? ready : node[place].end_of_service(ready);
+    }
 };
 
 // What a type of drones meets.
@@ -175,7 +180,7 @@ struct DroneKind {
 
     // When it has served a customer that takes off at a node then.
     Int ready(Int from, Int customer, Int takeoff) const {
-        return node[customer].end_of_service(takeoff + out(from, customer));
+        return Flight{type, node[customer], out(from, customer), 0}.served_at(takeoff);
     }
 
     // The flight to a customer, launched and recovered at these nodes.

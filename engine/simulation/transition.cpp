@@ -297,7 +297,7 @@ bool drive(OpenVehicle& open, Int node) {
     }
     const Int there = is_customer ? arrival : let_in(setting.type, setting.node, node, arrival);
     const Int start = is_customer ? place.start_of_service(ready) : there;
-    const Int service_end = is_customer ? place.end_of_service(ready) : there;
+    const Int service_end = setting.served_at(node, is_customer ? ready : there);
     if (!left_in_hours(setting, log) ||
         (!is_customer && std::max(there, free) > closes_at(setting.type, setting.node, node))) {
         return false;

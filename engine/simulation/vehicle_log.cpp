@@ -258,7 +258,7 @@ private:
             if (!waits_.empty()) waits_[std::size_t(index)] = service_start - arrival;
             if (!is_allowed(place, ready, before)) return false;
             if (!writes && aboard_too_long(stop.node, departure_, service_start)) return false;
-            leave_ = place.end_of_service(ready);
+            leave_ = setting_.served_at(stop.node, ready);
             if (!starts_.empty()) starts_[std::size_t(index)] = service_start;
             if (!served_.empty() && !note_served(index, service_start)) return false;
         }
@@ -518,8 +518,7 @@ Int excess_under_way(const Setting& setting, const VehicleLog& log, Int delivery
     }
     for (const LoggedSortie& sortie : log.sortie.first(log.count.sorties)) {
         if (!brings(setting.pair, sortie.node, delivery)) continue;
-        most =
-            std::max(most, excess_between(setting.between, sortie.node, sortie.ready, start));
+        most = std::max(most, excess_between(setting.between, sortie.node, sortie.ready, start));
     }
     return most;
 }

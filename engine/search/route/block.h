@@ -92,12 +92,16 @@ struct Truck {
         return arrival ? *arrival + setup_after(data.setup, from.node, to) : far;
     }
 
+    // Return when a stop is left that is reached at an instant, as far as it is served alone.
+    Int served_at(const Stop& stop, Int time) const {
+        return has_window(stop) ? places[stop.node].end_of_service(time) : time;
+    }
+
     // Return when what it does at a stop by itself ends.
     TimeSegment serve(const Stop& stop, Int time, TimeSegment reached) const {
         if (has_window(stop)) {
             const Windows place = places[stop.node];
-            const auto [d, c] = place.start_within(time, reached);
-            return {d + place.service_duration(), c + place.service_duration()};
+            return behind(place.start_within(time, reached), place.service_duration());
         }
         if (stop.kind == start_stop) {
             const Int ready = std::max(reached.c, std::max(stop.release, stop.hold));

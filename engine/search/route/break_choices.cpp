@@ -230,8 +230,7 @@ private:
         }
         const Int reached = leg.there.at(leg.way.begins.first) +
                             setup_after(data_.setup, stops_[p].node, next.node);
-        return truck_.places[next.node].end_of_service(reached) <=
-               break_of(type_, number, 0).earliest;
+        return truck_.served_at(next, reached) <= break_of(type_, number, 0).earliest;
     }
 
     // Take a break at each place of a leg behind those before, and go on.

@@ -104,9 +104,8 @@ void RestRoute::reload(RestLabel& label, Int p) const {
 
 Stay RestRoute::stay_at(Int p, Int time) const {
     const Stop& stop = stops[p];
-    if (!has_window(stop)) return {0, time};
-    const Windows place = truck.places[stop.node];
-    return {place.waiting(time), place.end_of_service(time)};
+    const Int waits = has_window(stop) ? truck.places[stop.node].waiting(time) : 0;
+    return {waits, truck.served_at(stop, time)};
 }
 
 Ending RestRoute::ending_of(const RestLabel& label) const {
