@@ -162,6 +162,40 @@ def closed() -> dict[str, Any]:
             "options": {"time_limit": 60, "search_iterations": 50}}
 
 
+CODES = re.compile(r'(?:(?:Doubt|CellError|refuse|Incomplete)\(|return \(?)\s*"([A-Z_]{4,})",')
+"""Names of what an import takes for granted, or can't use, in its sources."""
+
+
+def test_import_says_all_that_it_takes_for_granted_in_german() -> None:
+    sources = "".join(path.read_text("utf-8")
+                      for path in (ROOT / "app" / "formats" / "sheets").glob("*.py"))
+    codes = set(CODES.findall(sources))
+    assert {"SHIFT_ASSUMED", "ADDRESS_FAR", "NO_COORDINATES", "CAPACITY"} <= codes
+    german = (STATIC / "texts" / "granted-de.js").read_text("utf-8")
+    assert sorted(codes - set(re.findall(r"^  ([A-Z_]+):", german, re.MULTILINE))) == []
+
+
+DOUBTFUL = """Kunde;Adresse;x;y;Von;Bis;kg;Soll
+Anna;;11,58;48,14;8:00;2:00;5;1
+Anna;;11,60;48,15;8:00;10:00;;2
+Ben;;11,62;48,13;12:00;9:00 Z;1,250;3
+Summe;;;;;;6,250;
+Cleo;Tal 1;;;;;7;4
+"""
+
+
+def test_import_has_nothing_english_on_german_pages(open_page: Callable[..., Page],
+                                                    service: str) -> None:
+    page = open_page(service, locale="de-DE")
+    idle(page)
+    open_file(page, "touren.csv", DOUBTFUL)
+    dialog = page.get_by_role("dialog")
+    expect(dialog.get_by_text("Keine Arbeitszeit angegeben")).to_be_visible()
+    expect(dialog.get_by_role("alert")).to_be_visible()
+    dialog.evaluate("each => each.querySelectorAll('details').forEach((one) => one.open = true)")
+    assert sorted(set(page.evaluate(LEFT_OVERS))) == []
+
+
 def test_zones_and_wind_have_nothing_english_on_german_pages(
         open_page: Callable[..., Page], service: str) -> None:
     page = open_page(service, locale="de-DE")

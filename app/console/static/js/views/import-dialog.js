@@ -1,5 +1,6 @@
 /** What a sheet is taken for, cell by cell, before it is planned; each guess can be corrected. */
 
+import { grantedInWords } from '../core/granted.js';
 import { readFields, unplacedIn } from '../core/importing.js';
 import { change, leaveImport, useImport } from '../importing.js';
 import { html } from '../libraries.js';
@@ -71,8 +72,9 @@ function Errors({ importing: { reply, choices } }) {
     <p class="error"><strong>${t('import.errors', { count: reply.num_errors })}</strong>
       ${' '}${t('import.mend')}</p>
     <ul>${reply.errors.slice(0, MOST_LISTED).map(
-      ({ cell, message }, position) => html`<li key=${position}>
-        ${cell && html`<strong>${cell}</strong>: `}${message}</li>`,
+      (error, position) => html`<li key=${position}>
+        ${error.cell && html`<strong>${error.cell}</strong>: `}${
+          grantedInWords({ ...error, cell: '' })}</li>`,
     )}
     ${more > 0 && html`<li>${t('app.more', { count: more })}</li>`}
     </ul></div>
@@ -88,5 +90,6 @@ function Errors({ importing: { reply, choices } }) {
 function Doubts({ reply: { doubts } }) {
   if (!doubts.length) return null;
   return html`<details open><summary>${t('import.granted', { count: doubts.length })}</summary>
-    <ul>${doubts.map(({ message }) => html`<li key=${message}>${message}</li>`)}</ul></details>`;
+    <ul>${doubts.map((doubt) => html`<li key=${doubt.message}>${
+      grantedInWords(doubt)}</li>`)}</ul></details>`;
 }
