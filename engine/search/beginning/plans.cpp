@@ -237,17 +237,11 @@ void tell_routes(const ProblemData& data, Fleet& fleet, Int slots, Plan& plan) {
 using namespace tandem;
 
 extern "C" int tandem_give_up_route(const tandem_problem_data* data, tandem_search* search) {
-    return guarded([&] {
-        Searcher& searching = *search;
-        give_up_route(data_of(*data), searching);
-    });
+    return guarded([&] { give_up_route(data_of(*data), *search); });
 }
 
 extern "C" int tandem_disband(const tandem_problem_data* data, tandem_search* search) {
-    return guarded([&] {
-        Searcher& searching = *search;
-        disband(data_of(*data), searching);
-    });
+    return guarded([&] { disband(data_of(*data), *search); });
 }
 
 extern "C" int tandem_tell_best(const tandem_problem_data* data, tandem_search* search,

@@ -41,29 +41,25 @@ bool refresh_by_trips(const ProblemData& data, const Fleet& fleet, Int slot) {
 
 // Time a route whose trips begin as late as costs nothing. In place; false if no way was found.
 bool time_anew(const ProblemData& data, Fleet& fleet, Int slot) {
-    Route& route = fleet.route[slot];
-    const View<Stop, 1> stops = fleet.stop[slot];
-    const View<Trip, 1> trips = fleet.trip[slot];
-    const View<Sortie, 1> sorties = fleet.sortie[slot];
-    const VehicleType& type = data.type[route.type];
+    const Tour tour = tour_of(fleet, slot);
+    const VehicleType& type = data.type[tour.route.type];
     if (orders_cross(data) || shares_chargers(type)) {
-        load_trips(data, route, stops, trips, sorties);
-        keep_starts(data, route, stops);
-        return drive_forward(data, route, stops, sorties);
+        load_trips(data, tour);
+        keep_starts(data, tour);
+        return drive_forward(data, tour);
     }
     if (hangs_on_begin(type)) {
         bool settled = false;
-        return price_as_is(data, fleet, slot, no_bar, settled) &&
-               (settled || settle(data, route, stops, trips, sorties));
+        return price_as_is(data, fleet, slot, no_bar, settled) && (settled || settle(data, tour));
     }
-    load_trips(data, route, stops, trips, sorties);
-    clear_holds(route, stops, trips);
-    if (!drive_forward(data, route, stops, sorties)) return false;
-    if (holds_count(data, route.type) && !hold_trips(data, route, stops, trips, sorties) &&
-        !drive_forward(data, route, stops, sorties)) {
+    load_trips(data, tour);
+    clear_holds(tour);
+    if (!drive_forward(data, tour)) return false;
+    if (holds_count(data, tour.route.type) && !hold_trips(data, tour) &&
+        !drive_forward(data, tour)) {
         return false;
     }
-    return settle(data, route, stops, trips, sorties);
+    return settle(data, tour);
 }
 
 }  // namespace

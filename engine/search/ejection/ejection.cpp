@@ -351,8 +351,7 @@ extern "C" int tandem_eject(const tandem_problem_data* data, tandem_search* sear
                             bool gently, int64_t* made, int64_t* done) {
     return guarded([&] {
         const ProblemData problem = data_of(*data);
-        Searcher& working = *search;
-        Ejection ejection(problem, working);
+        Ejection ejection(problem, *search);
         *done = ejection.run(rounds, gently) ? 1 : 0;
         *made = ejection.made();
     });
@@ -362,7 +361,6 @@ extern "C" int tandem_move_shipments(const tandem_problem_data* data, tandem_sea
                                      int64_t moves, bool by_one_more) {
     return guarded([&] {
         const ProblemData problem = data_of(*data);
-        Searcher& working = *search;
-        Ejection(problem, working).shuffle(moves, by_one_more);
+        Ejection(problem, *search).shuffle(moves, by_one_more);
     });
 }

@@ -25,8 +25,7 @@ Int copy_part(const Fleet& fleet, Int slot, ChangedStops part, Int to) {
         target[p - part.first].hold = none;
     }
     Int skipped = 0, count = 0;
-    const Route& route = fleet.route[slot];
-    const View<const Sortie, 1> sorties = fleet.sortie[slot];
+    const auto [route, stops, trips, sorties] = tour_of(fleet, slot);
     const View<Sortie, 1> copies = fleet.sortie[to];
     for (Int s = 0; s < route.sorties; ++s) {
         const Int launch = sorties[s].launch;

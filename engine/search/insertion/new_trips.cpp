@@ -101,8 +101,7 @@ bool split_fits(const ProblemData& data, const Fleet& fleet, Int slot, Int p, In
 
 // Tells whether a customer can be served by a trip of its own behind stop `p`, or -1.
 bool trip_fits(const ProblemData& data, const Fleet& fleet, Int slot, Int p, Int node) {
-    const Route& route = fleet.route[slot];
-    const View<const Stop, 1> stops = fleet.stop[slot];
+    const auto [route, stops, trips, sorties] = tour_of(fleet, slot);
     const VehicleType& type = data.type[route.type];
     const NodeTable places = data.place.by_truck(type);
     const TravelLegs legs = legs_of(data.leg, type.travel);

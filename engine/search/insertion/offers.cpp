@@ -143,7 +143,7 @@ void offer_stops(const Insertion& insertion, Int slot, Int first, Int last) {
     const View<const Stop, 1> stops = now.stop[slot];
     const Newcomer newcomer = newcomer_for(data, data.type[k], node);
     const Room room = room_on(data, now, slot, k, node);
-    const LeastCost least{data, newcomer, k, spare_time(data, now.route[slot], stops),
+    const LeastCost least{data, newcomer, k, spare_time(data, tour_of(now, slot)),
                           most_saved(data, now, slot, node)};
     const Int most = longest_trip(data.type[k]) - now.trip(slot, stops[first].trip).distance;
     for (Int p = first; p <= last; ++p) {
@@ -204,8 +204,7 @@ void offer_flight_trips(const Insertion& insertion, Int slot) {
     const auto [data, searcher, node, enlarge, best] = insertion;
     if (!data.strategy.loops) return;
     const Fleet& now = searcher.now;
-    const Route& route = now.route[slot];
-    const View<const Stop, 1> stops = now.stop[slot];
+    const auto [route, stops, trips, sorties] = tour_of(now, slot);
     const Int k = route.type, depot = data.type[k].depot;
     for (Int row = first_drone_row(data.type, k); row >= 0; row = next_drone_row(data.type, row)) {
         const TravelLegs flights = legs_of(data.leg, data.type[row].drone_travel);
@@ -231,8 +230,7 @@ void offer_trips(const Insertion& insertion, Int slot) {
     const auto [data, searcher, node, enlarge, found] = insertion;
     const double best = found.cost;
     const Fleet& now = searcher.now;
-    const Route& route = now.route[slot];
-    const View<const Stop, 1> stops = now.stop[slot];
+    const auto [route, stops, trips, sorties] = tour_of(now, slot);
     const Int k = route.type, m = data.type[k].travel, depot = data.type[k].depot;
     const double rate = data.rate[k].distance;
     const TravelLegs legs = legs_of(data.leg, m);
@@ -272,8 +270,7 @@ void offer_trips_apart(const Insertion& insertion, Int slot) {
     const auto [data, searcher, node, enlarge, found] = insertion;
     const double best = found.cost;
     const Fleet& now = searcher.now;
-    const Route& route = now.route[slot];
-    const View<const Stop, 1> stops = now.stop[slot];
+    const auto [route, stops, trips, sorties] = tour_of(now, slot);
     const Int k = route.type, last = route.length - 1;
     const double rate = data.rate[k].distance;
     for (Int p = -1; p <= last; ++p) {

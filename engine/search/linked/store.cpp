@@ -25,8 +25,7 @@ void measure_near_by(const ProblemData& data, const Nearness& measured, Int k, I
 
 // Links the stops of a route.
 void link_route(const ProblemData& data, Linked& linked, const Fleet& fleet, Int slot) {
-    const Route& route = fleet.route[slot];
-    const View<Stop, 1> stops = fleet.stop[slot];
+    const auto [route, stops, trips, sorties] = tour_of(fleet, slot);
     Run& run = linked.run[slot];
     Amount load = nothing;
     run.type = route.type;
@@ -56,8 +55,7 @@ void link_best(Linked& linked, const Fleet& best, Int slot) {
 
 // Writes the ends of a route whose customers are there, and all that follows.
 void write_stops(const ProblemData& data, Fleet& fleet, Int slot, Int k, Int count) {
-    Route& route = fleet.route[slot];
-    const View<Stop, 1> stops = fleet.stop[slot];
+    const auto [route, stops, trips, sorties] = tour_of(fleet, slot);
     route.type = k;
     route.length = count + 2;
     route.sorties = 0;
@@ -284,19 +282,15 @@ using namespace tandem;
 extern "C" int tandem_tie(const tandem_problem_data* data, tandem_search* search,
                           tandem_linked* linked) {
     return guarded([&] {
-        Searcher& searching = *search;
         const ProblemData problem = data_of(*data);
         problem.deadline.go_on();
-        tie(problem, searching, *linked);
+        tie(problem, *search, *linked);
     });
 }
 
 extern "C" int tandem_write_back(const tandem_problem_data* data, tandem_search* search,
                                  tandem_linked* linked) {
-    return guarded([&] {
-        Searcher& searching = *search;
-        write_back(data_of(*data), searching, *linked);
-    });
+    return guarded([&] { write_back(data_of(*data), *search, *linked); });
 }
 
 extern "C" int tandem_anneal_linked(const tandem_problem_data* data, tandem_search* search,

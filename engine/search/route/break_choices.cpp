@@ -342,7 +342,8 @@ private:
 };
 
 // Tell whether ways along a route may be lean.
-bool may_be_lean(const ProblemData& data, const Route& route, View<const Stop, 1> stops) {
+bool may_be_lean(const ProblemData& data, const Tour& tour) {
+    const auto& [route, stops, trips, sorties] = tour;
     return is_steady(data.type[route.type]) &&
            std::none_of(&stops[0], &stops[0] + route.length, [&](const Stop& stop) {
                return stop.kind == customer_stop && times_cost(data.price[stop.node]);
@@ -350,7 +351,8 @@ bool may_be_lean(const ProblemData& data, const Route& route, View<const Stop, 1
 }
 
 template <bool is_lean>
-void note_soonest_of(const ProblemData& data, const Route& route, View<Stop, 1> stops) {
+void note_soonest_of(const ProblemData& data, const Tour& tour) {
+    const auto& [route, stops, trips, sorties] = tour;
     Choosing<is_lean> choosing(data, route, stops, no_bar, false);
     choosing.run();
     for (Int p = 0; p < route.length; ++p) {
@@ -360,12 +362,12 @@ void note_soonest_of(const ProblemData& data, const Route& route, View<Stop, 1> 
 
 }  // namespace
 
-std::vector<BreakChoice> break_choices(const ProblemData& data, const Route& route,
-                                       View<const Stop, 1> stops, double most_late) {
+std::vector<BreakChoice> break_choices(const ProblemData& data, const Tour& tour,
+                                       double most_late) {
+    const auto& [route, stops, trips, sorties] = tour;
     std::vector<BreakChoice> choices =
-        may_be_lean(data, route, stops)
-            ? Choosing<true>(data, route, stops, most_late, true).run()
-            : Choosing<false>(data, route, stops, most_late, true).run();
+        may_be_lean(data, tour) ? Choosing<true>(data, route, stops, most_late, true).run()
+                                : Choosing<false>(data, route, stops, most_late, true).run();
     const auto value = [](const BreakChoice& choice) {
         return std::pair{choice.timing.cost(), choice.timing.end};
     };
@@ -375,9 +377,9 @@ std::vector<BreakChoice> break_choices(const ProblemData& data, const Route& rou
     return choices;
 }
 
-void note_soonest(const ProblemData& data, const Route& route, View<Stop, 1> stops) {
-    const bool is_lean = is_steady(data.type[route.type]);
-    return (is_lean ? note_soonest_of<true> : note_soonest_of<false>)(data, route, stops);
+void note_soonest(const ProblemData& data, const Tour& tour) {
+    const bool is_lean = is_steady(data.type[tour.route.type]);
+    return (is_lean ? note_soonest_of<true> : note_soonest_of<false>)(data, tour);
 }
 
 }  // namespace tandem

@@ -213,26 +213,23 @@ Int begin_as_timed(View<const Stop, 1> stops) {
 // Return when the first trip of a route would begin that has no breaks, as late as costs nothing;
 // `none` if it can't be driven. In place: it is timed so.
 Int begin_without_breaks(const ProblemData& data, const Fleet& fleet, Int slot) {
-    Route& route = fleet.route[slot];
-    const View<Stop, 1> stops = fleet.stop[slot];
-    const View<Trip, 1> trips = fleet.trip[slot];
-    const View<Sortie, 1> sorties = fleet.sortie[slot];
+    const Tour tour = tour_of(fleet, slot);
+    const auto& [route, stops, trips, sorties] = tour;
     stops[0].release = trips[0].release;
     clear_rests(data.type[route.type], stops.first(route.length));
-    clear_holds(route, stops, trips);
+    clear_holds(tour);
     route.placed = breaks_left_out;
-    if (!drive_forward(data, route, stops, sorties) ||
-        !settle(data, route, stops, trips, sorties)) {
+    if (!drive_forward(data, tour) || !settle(data, tour)) {
         return none;
     }
     return begin_as_timed(stops);
 }
 
 // Return what it costs that customers of a timed route are served too late, or less.
-double lateness_on(const ProblemData& data, const Route& route, View<const Stop, 1> stops) {
+double lateness_on(const ProblemData& data, const Tour& tour) {
     double cost = 0.0;
-    if (!data.evaluation[route.type].priced || lags_count(data)) return cost;
-    for (const Stop& stop : stops.first(route.length)) {
+    if (!data.evaluation[tour.route.type].priced || lags_count(data)) return cost;
+    for (const Stop& stop : tour.stops.first(tour.route.length)) {
         if (stop.kind == customer_stop) cost += lateness_cost(data, stop.node, stop.arrival);
     }
     return cost;
@@ -242,14 +239,13 @@ double lateness_on(const ProblemData& data, const Route& route, View<const Stop,
 // be below the bar. In place.
 double price_placed(const ProblemData& data, const Fleet& fleet, Int slot,
                     const PlacedBreaks& placed, const CostBounds& bounds, bool& settled) {
-    Route& route = fleet.route[slot];
-    const View<Stop, 1> stops = stops_of(fleet, slot);
-    placed.write(stops);
+    const Tour tour = tour_of(fleet, slot);
+    const auto& [route, stops, trips, sorties] = tour;
+    placed.write(stops.first(route.length));
     stops[0].release = placed.begin();
     route.placed = breaks_kept;
-    clear_holds(route, stops, fleet.trip[slot]);
-    if (!drive_forward(data, route, stops, fleet.sortie[slot]) ||
-        bounds.in_time + lateness_on(data, route, stops) >= bounds.bar) {
+    clear_holds(tour);
+    if (!drive_forward(data, tour) || bounds.in_time + lateness_on(data, tour) >= bounds.bar) {
         return no_bar;
     }
     return price_driven(data, fleet, slot, settled) ? fleet.cost[slot] : no_bar;
@@ -266,28 +262,28 @@ bool price_from(const ProblemData& data, const Fleet& fleet, Int slot, Int begin
 
 bool price_choices(const ProblemData& data, const Fleet& fleet, Int slot, const CostBounds& bounds,
                    bool& settled) {
-    Route& route = fleet.route[slot];
-    const View<Stop, 1> stops = fleet.stop[slot];
+    const Tour tour = tour_of(fleet, slot);
+    const auto& [route, stops, trips, sorties] = tour;
     const VehicleType& type = data.type[route.type];
-    clear_holds(route, stops, fleet.trip[slot]);
+    clear_holds(tour);
     clear_rests(type, stops.first(route.length));
     // Whoever takes breaks is later everywhere.
-    if (!drive_as_placed(data, route, stops, fleet.sortie[slot])) return false;
-    const double least_known = bounds.in_time + lateness_on(data, route, stops);
+    if (!drive_as_placed(data, tour)) return false;
+    const double least_known = bounds.in_time + lateness_on(data, tour);
     if (least_known >= bounds.bar) return false;
     double cost = bounds.bar;
     PlacedBreaks best = PlacedBreaks().from(stops[0].release);
     bool is_found = false, is_timed_last = false;
-    if (!lacks_break(type, route, stops)) {
+    if (!lacks_break(type, tour)) {
         route.placed = breaks_left_out;
         is_found = price_driven(data, fleet, slot, settled) && fleet.cost[slot] < cost;
         if (is_found) cost = fleet.cost[slot];
         if (is_found && cost <= least_known * (1.0 + rounding)) return true;
-        clear_holds(route, stops, fleet.trip[slot]);
+        clear_holds(tour);
     }
     const double besides =
         bounds.in_time - work_cost(data.rate[route.type], paid_work(type, none, bounds.working));
-    std::vector<BreakChoice> choices = break_choices(data, route, stops, cost - bounds.in_time);
+    std::vector<BreakChoice> choices = break_choices(data, tour, cost - bounds.in_time);
     choices.resize(std::min(choices.size(), most_timed));
     for (const auto& [placed, timing] : choices) {
         if (besides + timing.cost() >= cost * (1.0 - rounding)) break;

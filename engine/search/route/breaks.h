@@ -41,7 +41,8 @@ inline Int unpaid_on(const VehicleType& type, View<const Stop, 1> stops) {
 }
 
 // Tell whether a timed route lacks a break.
-inline bool lacks_break(const VehicleType& type, const Route& route, View<const Stop, 1> stops) {
+inline bool lacks_break(const VehicleType& type, const Tour& tour) {
+    const auto& [route, stops, trips, sorties] = tour;
     const Int begin = begin_of(type, stops);
     Int taken = 0;
     for (const Stop& stop : stops.first(route.length)) {
@@ -268,12 +269,11 @@ struct BreakChoice {
 // By dynamic programming along the route: of two ways to have taken as many breaks, one is no worse
 // that is nowhere later, may begin in the same interval, costs no more by when customers are
 // served, and was at those later whom others look back to.
-std::vector<BreakChoice> break_choices(const ProblemData& data, const Route& route,
-                                       View<const Stop, 1> stops, double most_late);
+std::vector<BreakChoice> break_choices(const ProblemData& data, const Tour& tour, double most_late);
 
 // Write when each stop of a loaded route may be left at the soonest, whichever breaks are taken
 // before. In place.
-void note_soonest(const ProblemData& data, const Route& route, View<Stop, 1> stops);
+void note_soonest(const ProblemData& data, const Tour& tour);
 
 // What is known of a route's cost: what it would be at least were nobody served too late, with how
 // much work, and what it has to be below.

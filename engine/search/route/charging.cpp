@@ -90,9 +90,8 @@ Charge charge_of(const VehicleType& type, const Trip& trip, const Charge& before
 }
 
 // What a timed trip takes of the battery; more than that holds if it is too much.
-Int taken_on(const ProblemData& data, const Route& route, View<const Stop, 1> stops,
-             const Trip& trip) {
-    return battery_of(data.type[route.type]) - follow_trip(data, route, stops, trip).left();
+Int taken_on(const ProblemData& data, const Tour& tour, const Trip& trip) {
+    return battery_of(data.type[tour.route.type]) - follow_trip(data, tour, trip).left();
 }
 
 // Write when vehicles of other routes than that in a slot are charged. In place: `data.plugging`.
@@ -157,13 +156,13 @@ private:
 
 // Write of how much each trip wants to begin with, for those behind to begin as they are timed. In
 // place; false if any takes more than a battery holds.
-bool look_ahead(const ProblemData& data, const Route& route, View<const Stop, 1> stops,
-                View<Trip, 1> trips) {
+bool look_ahead(const ProblemData& data, const Tour& tour) {
+    const auto& [route, stops, trips, sorties] = tour;
     const VehicleType& type = data.type[route.type];
     Int lacking = 0;
     for (Int index = route.trips - 1; index >= 0; --index) {
         Trip& trip = trips[index];
-        const Int taken = taken_on(data, route, stops, trip);
+        const Int taken = taken_on(data, tour, trip);
         if (taken > battery_of(type)) return false;
         trip.wanted = std::min(battery_of(type), taken + lacking);
         if (index == 0) break;
@@ -181,12 +180,10 @@ Int time_to_have(const VehicleType& type, Int kept, Int wanted) {
 }  // namespace
 
 bool charge_in_turn(const ProblemData& data, const Fleet& fleet, Int slot) {
-    Route& route = fleet.route[slot];
-    const View<Stop, 1> stops = fleet.stop[slot];
-    const View<Trip, 1> trips = fleet.trip[slot];
-    const View<Sortie, 1> sorties = fleet.sortie[slot];
+    const Tour tour = tour_of(fleet, slot);
+    const auto& [route, stops, trips, sorties] = tour;
     const VehicleType& type = data.type[route.type];
-    if (!look_ahead(data, route, stops, trips)) return false;
+    if (!look_ahead(data, tour)) return false;
     Charge charge = first_charge(type, 0);
     bool others_are_noted = false;
     for (Trip& trip : trips.first(route.trips)) {
@@ -199,7 +196,7 @@ bool charge_in_turn(const ProblemData& data, const Fleet& fleet, Int slot) {
             return trip.charged_until - stops[trip.first].leave;
         };
         const auto wait = [&] {
-            const Int taken = taken_on(data, route, stops, trip);
+            const Int taken = taken_on(data, tour, trip);
             if (taken > battery_of(type)) return far;
             trip.charged_from = trip.charged_until = charge.since;
             const Int wanted = std::max(taken, trip.wanted);
@@ -209,16 +206,16 @@ bool charge_in_turn(const ProblemData& data, const Fleet& fleet, Int slot) {
             const Int later = plug(taken);
             return trip.charged_from == far ? far : later;
         };
-        if (!hold_trip(data, route, stops, trip, sorties, wait)) return false;
+        if (!hold_trip(data, tour, trip, wait)) return false;
         charge = charge_of(type, trip, charge);
-        charge.kept -= taken_on(data, route, stops, trip);
+        charge.kept -= taken_on(data, tour, trip);
         charge.since = stops[trip.last].leave;
     }
     return true;
 }
 
-bool is_charged_in_turn(const ProblemData& data, const Route& route, View<const Stop, 1> stops,
-                        View<const Trip, 1> trips) {
+bool is_charged_in_turn(const ProblemData& data, const Tour& tour) {
+    const auto& [route, stops, trips, sorties] = tour;
     const VehicleType& type = data.type[route.type];
     Charge charge = first_charge(type, 0);
     for (const Trip& trip : trips.first(route.trips)) {
@@ -227,7 +224,7 @@ bool is_charged_in_turn(const ProblemData& data, const Route& route, View<const 
             return false;
         }
         charge = charge_of(type, trip, charge);
-        charge.kept -= taken_on(data, route, stops, trip);
+        charge.kept -= taken_on(data, tour, trip);
         charge.since = stops[trip.last].leave;
         if (charge.kept < 0) return false;
     }

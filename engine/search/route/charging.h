@@ -36,8 +36,7 @@ Int await_charge(const VehicleType& type, Sortie& sortie, Int takeoff, Int time)
 bool charge_in_turn(const ProblemData& data, const Fleet& fleet, Int slot);
 
 // Tell whether the trips of a timed route begin with what they take, charged when that was noted.
-bool is_charged_in_turn(const ProblemData& data, const Route& route, View<const Stop, 1> stops,
-                        View<const Trip, 1> trips);
+bool is_charged_in_turn(const ProblemData& data, const Tour& tour);
 
 // Tell whether there are places to charge when that was noted on a route, beside others.
 bool has_places(const ProblemData& data, const Fleet& fleet, Int slot);

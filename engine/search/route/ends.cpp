@@ -2,7 +2,8 @@
 
 namespace tandem {
 
-void place_ends(const ProblemData& data, Int k, const Route& route, View<Stop, 1> stops) {
+void place_ends(const ProblemData& data, Int k, const Tour& tour) {
+    const auto& [route, stops, trips, sorties] = tour;
     const VehicleType& type = data.type[k];
     stops[0].node = type.begins_at;
     for (Int p = 1; p < route.length - 1; ++p) {

@@ -11,7 +11,7 @@ inline bool is_apart(const ProblemData& data, Int k) { return data.type[k].chang
 // Let each trip begin and end where it may. In place.
 //
 // Where one ends and the next begins stays as it is, if it may be there.
-void place_ends(const ProblemData& data, Int k, const Route& route, View<Stop, 1> stops);
+void place_ends(const ProblemData& data, Int k, const Tour& tour);
 
 // A place to reload at, and how far it is by it.
 struct Reload {

@@ -11,9 +11,8 @@ namespace {
 Int start_of(View<const Stop, 1> stops, const Trip& trip) { return stops[trip.first].leave; }
 
 // Return what a timed trip leaves of a full battery.
-Int left_behind(const ProblemData& data, const Route& route, View<const Stop, 1> stops,
-                const Trip& trip) {
-    return follow_trip(data, route, stops, trip).left();
+Int left_behind(const ProblemData& data, const Tour& tour, const Trip& trip) {
+    return follow_trip(data, tour, trip).left();
 }
 
 // The stops from `first` to `last` whose legs are known, with some between. `waits`: by the windows
@@ -55,9 +54,8 @@ FlownTrip follow(const ProblemData& data, const VehicleType& type, const Followe
 
 }  // namespace
 
-FlownTrip follow_trip(const ProblemData& data, const Route& route, View<const Stop, 1> stops,
-                      const Trip& trip) {
-    return follow(data, data.type[route.type], {stops, trip.first, trip.last, {}, true});
+FlownTrip follow_trip(const ProblemData& data, const Tour& tour, const Trip& trip) {
+    return follow(data, data.type[tour.route.type], {tour.stops, trip.first, trip.last, {}, true});
 }
 
 bool reaches(const ProblemData& data, Int k, View<const Stop, 1> stops, const Trip& trip,
@@ -85,42 +83,41 @@ bool lasts_in_air(const ProblemData& data, Int k, View<const Stop, 1> stops, Int
     return !is_limited(type) || follow(data, type, {stops, first, last, added, false}).left() >= 0;
 }
 
-Int excess_in_air(const ProblemData& data, const Route& route, View<const Stop, 1> stops,
-                  const Trip& trip) {
-    const VehicleType& type = data.type[route.type];
-    const Int excess = stops[trip.last].leave - start_of(stops, trip) - longest_in_air(type);
+Int excess_in_air(const ProblemData& data, const Tour& tour, const Trip& trip) {
+    const VehicleType& type = data.type[tour.route.type];
+    const Int excess =
+        tour.stops[trip.last].leave - start_of(tour.stops, trip) - longest_in_air(type);
     if (!is_limited(type)) return excess;
-    return std::max(excess, follow_trip(data, route, stops, trip).excess());
+    return std::max(excess, follow_trip(data, tour, trip).excess());
 }
 
-Int waits_for_calm(const ProblemData& data, const Route& route, View<const Stop, 1> stops,
-                   const Trip& trip) {
+Int waits_for_calm(const ProblemData& data, const Tour& tour, const Trip& trip) {
+    const auto& [route, stops, trips, sorties] = tour;
     Int zones = 0;
     for (Int p = trip.first; p <= trip.last; ++p) zones |= zones_at(data.zones, stops[p].node);
     return wait_for_calm(data.type[route.type], start_of(stops, trip), stops[trip.last].leave,
                          zones);
 }
 
-Int waits_for_charge(const ProblemData& data, const Route& route, View<const Stop, 1> stops,
-                     const Trip& trip, const Charge& before) {
-    const FlownTrip flown = follow_trip(data, route, stops, trip);
-    return flown.left() < 0 ? far : flown.excess_of_charge(before, start_of(stops, trip));
+Int waits_for_charge(const ProblemData& data, const Tour& tour, const Trip& trip,
+                     const Charge& before) {
+    const FlownTrip flown = follow_trip(data, tour, trip);
+    return flown.left() < 0 ? far : flown.excess_of_charge(before, start_of(tour.stops, trip));
 }
 
-Charge charge_behind(const ProblemData& data, const Route& route, View<const Stop, 1> stops,
-                     const Trip& trip, const Charge& before) {
-    const VehicleType& type = data.type[route.type];
-    const Int there = charged(type, before.kept, before.since, start_of(stops, trip));
-    const Int taken = battery_of(type) - left_behind(data, route, stops, trip);
-    return {there - taken, stops[trip.last].leave};
+Charge charge_behind(const ProblemData& data, const Tour& tour, const Trip& trip,
+                     const Charge& before) {
+    const VehicleType& type = data.type[tour.route.type];
+    const Int there = charged(type, before.kept, before.since, start_of(tour.stops, trip));
+    const Int taken = battery_of(type) - left_behind(data, tour, trip);
+    return {there - taken, tour.stops[trip.last].leave};
 }
 
-bool lacks_charge(const ProblemData& data, const Route& route, View<const Stop, 1> stops,
-                  View<const Trip, 1> trips) {
-    Charge before = first_charge(data.type[route.type], 0);
-    for (const Trip& trip : trips.first(route.trips)) {
-        if (left_behind(data, route, stops, trip) < 0) return true;
-        before = charge_behind(data, route, stops, trip, before);
+bool lacks_charge(const ProblemData& data, const Tour& tour) {
+    Charge before = first_charge(data.type[tour.route.type], 0);
+    for (const Trip& trip : tour.trips.first(tour.route.trips)) {
+        if (left_behind(data, tour, trip) < 0) return true;
+        before = charge_behind(data, tour, trip, before);
         if (before.kept < 0) return true;
     }
     return false;

@@ -6,35 +6,42 @@
 namespace tandem {
 namespace {
 
-// Return by how much a parcel is too long aboard on a timed trip; at most 0 if none is.
-Int excess_of_parcels(const ProblemData& data, const Route& route, View<const Stop, 1> stops,
-                      const Trip& trip, View<const Sortie, 1> sorties) {
-    const Int departure = departure_of(data, route, stops, sorties, trip.first);
-    const NodeTable places = data.place[0];
-    Int most = -far;
-    const auto serve = [&](Int node, Int arrival) {
-        const Int start = places[node].start_of_service(arrival);
-        most = std::max(most, excess_aboard(data.max_time_aboard, node, departure, start));
-    };
+// Call `visit` with each customer of a timed trip, when he is reached, and the first stop that
+// comes no sooner.
+template <class Visit>
+void for_each_reached(const ProblemData& data, const Tour& tour, const Trip& trip,
+                      const Visit& visit) {
     for (Int p = trip.first; p <= trip.last; ++p) {
-        if (stops[p].kind == customer_stop) serve(stops[p].node, as_if_reached(data, stops[p]));
+        const Stop& stop = tour.stops[p];
+        if (stop.kind == customer_stop) visit(stop.node, as_if_reached(data, stop), p);
     }
-    for (const Sortie& sortie : sorties.first(route.sorties)) {
+    for (const Sortie& sortie : tour.sorties.first(tour.route.sorties)) {
         if (sortie.launch < trip.first || sortie.launch > trip.last) continue;
-        for (Int visit = 0; visit < sortie.count; ++visit) {
-            serve(sortie.nodes[visit], sortie.arrivals[visit]);
+        for (Int visited = 0; visited < sortie.count; ++visited) {
+            visit(sortie.nodes[visited], sortie.arrivals[visited], sortie.launch + 1);
         }
     }
+}
+
+// Return by how much a parcel is too long aboard on a timed trip; at most 0 if none is.
+Int excess_of_parcels(const ProblemData& data, const Tour& tour, const Trip& trip) {
+    const Int departure = departure_of(data, tour, trip.first);
+    const NodeTable places = data.place[0];
+    Int most = -far;
+    for_each_reached(data, tour, trip, [&](Int node, Int arrival, Int) {
+        const Int start = places[node].start_of_service(arrival);
+        most = std::max(most, excess_aboard(data.max_time_aboard, node, departure, start));
+    });
     return most;
 }
 
 // Return by how much a shipment is too long under way on a timed trip; at most 0 if none is.
-Int excess_of_pairs(const ProblemData& data, const Route& route, View<const Stop, 1> stops,
-                    const Trip& trip, View<const Sortie, 1> sorties) {
+Int excess_of_pairs(const ProblemData& data, const Tour& tour, const Trip& trip) {
+    const auto& [route, stops, trips, sorties] = tour;
     const View<const Int, 1> limits = data.max_between[route.type];
     const NodeTable places = data.place.by_truck(data.type[route.type]);
     Int most = -far;
-    const auto deliver = [&](Int node, Int arrival, Int behind) {
+    for_each_reached(data, tour, trip, [&](Int node, Int arrival, Int behind) {
         if (!is_delivery(data.pair, node)) return;
         const Int start = places[node].start_of_service(arrival);
         for (Int q = behind - 1; q > trip.first; --q) {
@@ -53,41 +60,29 @@ Int excess_of_pairs(const ProblemData& data, const Route& route, View<const Stop
                 most = std::max(most, excess_between(limits, pickup, left, start));
             }
         }
-    };
-    for (Int p = trip.first; p <= trip.last; ++p) {
-        if (stops[p].kind == customer_stop) {
-            deliver(stops[p].node, as_if_reached(data, stops[p]), p);
-        }
-    }
-    for (const Sortie& sortie : sorties.first(route.sorties)) {
-        if (sortie.launch < trip.first || sortie.launch > trip.last) continue;
-        for (Int visit = 0; visit < sortie.count; ++visit) {
-            deliver(sortie.nodes[visit], sortie.arrivals[visit], sortie.launch + 1);
-        }
-    }
+    });
     return most;
 }
 
 }  // namespace
 
-Int most_excess(const ProblemData& data, const Route& route, View<const Stop, 1> stops,
-                const Trip& trip, View<const Sortie, 1> sorties) {
+Int most_excess(const ProblemData& data, const Tour& tour, const Trip& trip) {
     Int most = -far;
-    if (time_aboard_counts(data)) most = excess_of_parcels(data, route, stops, trip, sorties);
+    if (time_aboard_counts(data)) most = excess_of_parcels(data, tour, trip);
     if (!data.max_between.empty()) {
-        most = std::max(most, excess_of_pairs(data, route, stops, trip, sorties));
+        most = std::max(most, excess_of_pairs(data, tour, trip));
     }
     if (lags_count(data)) {
-        most = std::max(most, most_lag_excess(data, route, stops, trip, sorties));
+        most = std::max(most, most_lag_excess(data, tour, trip));
     }
-    if (bounds_trips(data.type[route.type])) {
-        most = std::max(most, excess_in_air(data, route, stops, trip));
+    if (bounds_trips(data.type[tour.route.type])) {
+        most = std::max(most, excess_in_air(data, tour, trip));
     }
     return most;
 }
 
-Int time_to_turn(const ProblemData& data, const Route& route, View<const Stop, 1> stops,
-                 const Trip& trip, View<const Sortie, 1> sorties) {
+Int time_to_turn(const ProblemData& data, const Tour& tour, const Trip& trip) {
+    const auto& [route, stops, trips, sorties] = tour;
     const VehicleType& type = data.type[route.type];
     const NodeTable places = data.place.by_truck(type);
     Int soonest = far;
@@ -112,8 +107,8 @@ Int time_to_turn(const ProblemData& data, const Route& route, View<const Stop, 1
     return soonest;
 }
 
-Int departure_of(const ProblemData& data, const Route& route, View<const Stop, 1> stops,
-                 View<const Sortie, 1> sorties, Int first) {
+Int departure_of(const ProblemData& data, const Tour& tour, Int first) {
+    const auto& [route, stops, trips, sorties] = tour;
     Int departure = far;
     for (const Sortie& sortie : sorties.first(route.sorties)) {
         if (sortie.launch == first) departure = std::min(departure, sortie.takeoff);
@@ -129,34 +124,29 @@ bool holds_count(const ProblemData& data, Int k) {
            bounds_trips(data.type[k]);
 }
 
-bool any_too_long(const ProblemData& data, const Route& route, View<const Stop, 1> stops,
-                  View<const Trip, 1> trips, View<const Sortie, 1> sorties) {
+bool any_too_long(const ProblemData& data, const Tour& tour) {
+    const auto& [route, stops, trips, sorties] = tour;
     if (!holds_count(data, route.type)) return false;
     const VehicleType& type = data.type[route.type];
-    if (shares_chargers(type)
-            ? !is_charged_in_turn(data, route, stops, trips)
-            : charges_between_trips(type) && lacks_charge(data, route, stops, trips)) {
+    if (shares_chargers(type) ? !is_charged_in_turn(data, tour)
+                              : charges_between_trips(type) && lacks_charge(data, tour)) {
         return true;
     }
-    if (lags_count(data) && !keeps_all_lags(data, route, stops, sorties)) return true;
+    if (lags_count(data) && !keeps_all_lags(data, tour)) return true;
     const View<const Trip, 1> made = trips.first(route.trips);
     return std::ranges::any_of(made, [&](const Trip& trip) {
-        return most_excess(data, route, stops, trip, sorties) > 0 ||
-               waits_for_calm(data, route, stops, trip) > 0;
+        return most_excess(data, tour, trip) > 0 || waits_for_calm(data, tour, trip) > 0;
     });
 }
 
-bool hold_trips(const ProblemData& data, Route& route, View<Stop, 1> stops,
-                View<const Trip, 1> trips, View<Sortie, 1> sorties) {
-    const VehicleType& type = data.type[route.type];
+bool hold_trips(const ProblemData& data, const Tour& tour) {
+    const VehicleType& type = data.type[tour.route.type];
     const bool charging = charges_between_trips(type);
     Charge charge = charging ? first_charge(type, 0) : Charge{};
-    for (const Trip& trip : trips.first(route.trips)) {
-        const auto wait = [&] {
-            return charging ? waits_for_charge(data, route, stops, trip, charge) : 0;
-        };
-        if (!hold_trip(data, route, stops, trip, sorties, wait)) return false;
-        if (charging) charge = charge_behind(data, route, stops, trip, charge);
+    for (const Trip& trip : tour.trips.first(tour.route.trips)) {
+        const auto wait = [&] { return charging ? waits_for_charge(data, tour, trip, charge) : 0; };
+        if (!hold_trip(data, tour, trip, wait)) return false;
+        if (charging) charge = charge_behind(data, tour, trip, charge);
     }
     return true;
 }

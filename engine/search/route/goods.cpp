@@ -25,8 +25,8 @@ bool parts_any(View<const Trip, 1> trips) {
 
 }  // namespace
 
-bool take_goods(View<const Goods, 1> goods, Route& route, View<const Stop, 1> stops,
-                View<Trip, 1> trips, View<const Sortie, 1> sorties) {
+bool take_goods(View<const Goods, 1> goods, const Tour& tour) {
+    const auto& [route, stops, trips, sorties] = tour;
     route.barred = route.kept = 0;
     for (Trip& trip : trips.first(route.trips)) trip.barred = trip.kept = 0;
     for (const Stop& stop : stops.first(route.length)) {
@@ -94,8 +94,8 @@ bool keep_pairs(const ProblemData& data, View<const Sortie, 1> sorties, const Tr
 
 }  // namespace
 
-bool keeps_pairs(const ProblemData& data, const Route& route, View<const Stop, 1> stops,
-                 View<const Trip, 1> trips, View<const Sortie, 1> sorties) {
+bool keeps_pairs(const ProblemData& data, const Tour& tour) {
+    const auto& [route, stops, trips, sorties] = tour;
     const View<const Trip, 1> made = trips.first(route.trips);
     const auto node_at = [&](Int p) {
         return stops[p].kind == customer_stop ? stops[p].node : nowhere;

@@ -9,8 +9,7 @@ namespace tandem {
 
 // Write what the trips of a route bar and keep together, and all of it. In place; false if goods
 // clash, or customers are parted.
-bool take_goods(View<const Goods, 1> goods, Route& route, View<const Stop, 1> stops,
-                View<Trip, 1> trips, View<const Sortie, 1> sorties);
+bool take_goods(View<const Goods, 1> goods, const Tour& tour);
 
 // What a trip, or a part of one, bars and keeps together.
 struct Company {
@@ -42,7 +41,6 @@ Int home_of(const ProblemData& data, const Searcher& searcher, Int node);
 
 // Tell whether each trip serves whole shipments, each picked up first, and unloads from a stack
 // what lies on it.
-bool keeps_pairs(const ProblemData& data, const Route& route, View<const Stop, 1> stops,
-                 View<const Trip, 1> trips, View<const Sortie, 1> sorties);
+bool keeps_pairs(const ProblemData& data, const Tour& tour);
 
 }  // namespace tandem

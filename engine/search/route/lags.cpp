@@ -73,16 +73,16 @@ void note_spans(const ProblemData& data, const Fleet& fleet, Int slot) {
     }
 }
 
-void keep_starts(const ProblemData& data, const Route& route, View<Stop, 1> stops) {
-    for (Stop& stop : stops.first(route.length)) {
+void keep_starts(const ProblemData& data, const Tour& tour) {
+    for (Stop& stop : tour.stops.first(tour.route.length)) {
         if (stop.kind == start_stop) stop.hold = stop.free_start;
         if (stop.kind != customer_stop || !is_bound(data.across, stop.node)) continue;
         data.span[stop.node] = {stop.free_start, stop.free_start};
     }
 }
 
-void plan_starts(const Route& route, View<Stop, 1> stops) {
-    for (Stop& stop : stops.first(route.length)) {
+void plan_starts(const Tour& tour) {
+    for (Stop& stop : tour.stops.first(tour.route.length)) {
         stop.free_start = stop.kind == start_stop
                               ? std::max({stop.arrival, stop.release, stop.hold})
                               : stop.start;
@@ -105,8 +105,8 @@ Int await_others(const Truck& truck, View<Stop, 1> stops, View<const Sortie, 1> 
     return stop.start + place.service_duration();
 }
 
-bool keeps_all_lags(const ProblemData& data, const Route& route, View<const Stop, 1> stops,
-                    View<const Sortie, 1> sorties) {
+bool keeps_all_lags(const ProblemData& data, const Tour& tour) {
+    const auto& [route, stops, trips, sorties] = tour;
     const Part all{0, route.length};
     const View<const Sortie, 1> flown = sorties.first(route.sorties);
     const auto starts = starts_on(data, stops, flown, all);
@@ -117,8 +117,8 @@ bool keeps_all_lags(const ProblemData& data, const Route& route, View<const Stop
     return kept;
 }
 
-Int most_lag_excess(const ProblemData& data, const Route& route, View<const Stop, 1> stops,
-                    const Trip& trip, View<const Sortie, 1> sorties) {
+Int most_lag_excess(const ProblemData& data, const Tour& tour, const Trip& trip) {
+    const auto& [route, stops, trips, sorties] = tour;
     const Part part{trip.first, trip.last + 1};
     const View<const Sortie, 1> flown = sorties.first(route.sorties);
     const auto starts = starts_on(data, stops, flown, part);
@@ -142,8 +142,8 @@ Int excess_within(const ProblemData& data, View<const Stop, 1> stops, View<const
     return most;
 }
 
-Int latest_leave(const ProblemData& data, const Route& route, View<const Stop, 1> stops,
-                 View<const Sortie, 1> sorties, Int p, Int service_duration) {
+Int latest_leave(const ProblemData& data, const Tour& tour, Int p, Int service_duration) {
+    const auto& [route, stops, trips, sorties] = tour;
     const Int node = stops[p].node;
     Int latest = span_of(data, node).latest;
     const auto look_at = [&](Int behind, Int start) {

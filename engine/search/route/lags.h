@@ -24,10 +24,10 @@ struct Part {
 void note_spans(const ProblemData& data, const Fleet& fleet, Int slot);
 
 // Write likewise that they are served as the route is planned, whose trips begin so. In place.
-void keep_starts(const ProblemData& data, const Route& route, View<Stop, 1> stops);
+void keep_starts(const ProblemData& data, const Tour& tour);
 
 // Write that a route's trips begin, and its stops are served, as they are timed. In place.
-void plan_starts(const Route& route, View<Stop, 1> stops);
+void plan_starts(const Tour& tour);
 
 // The arrival at a timed stop of whoever would be served then without waiting for others.
 inline Int as_if_reached(const ProblemData& data, const Stop& stop) {
@@ -42,13 +42,11 @@ Int await_others(const Truck& truck, View<Stop, 1> stops, View<const Sortie, 1> 
                  Int arrival);
 
 // Tell whether all on a timed route are served as long behind others as they should.
-bool keeps_all_lags(const ProblemData& data, const Route& route, View<const Stop, 1> stops,
-                    View<const Sortie, 1> sorties);
+bool keeps_all_lags(const ProblemData& data, const Tour& tour);
 
 // Return by how much somebody is served too long behind another of a timed trip; at most 0 if
 // nobody is.
-Int most_lag_excess(const ProblemData& data, const Route& route, View<const Stop, 1> stops,
-                    const Trip& trip, View<const Sortie, 1> sorties);
+Int most_lag_excess(const ProblemData& data, const Tour& tour, const Trip& trip);
 
 // Return by how much somebody of a part is served too long behind another, there or before it, or
 // by a drone too soon; 0 if nobody is.
@@ -59,7 +57,6 @@ Int excess_within(const ProblemData& data, View<const Stop, 1> stops, View<const
 //
 // Of stops behind, it is known by when service may begin there (`free_start`); the customer's own
 // takes `service_duration`.
-Int latest_leave(const ProblemData& data, const Route& route, View<const Stop, 1> stops,
-                 View<const Sortie, 1> sorties, Int p, Int service_duration);
+Int latest_leave(const ProblemData& data, const Tour& tour, Int p, Int service_duration);
 
 }  // namespace tandem

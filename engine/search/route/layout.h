@@ -163,6 +163,18 @@ struct Fleet {
     OwnRows<Int, 1> used;       // (type,) routes
 };
 
+// A route, and rows with room for all that may be on it.
+struct Tour {
+    Route& route;
+    View<Stop, 1> stops;
+    View<Trip, 1> trips;
+    View<Sortie, 1> sorties;
+};
+
+inline Tour tour_of(const Fleet& fleet, Int slot) {
+    return {fleet.route[slot], fleet.stop[slot], fleet.trip[slot], fleet.sortie[slot]};
+}
+
 // The stops, the trips and the sorties of the route in a slot.
 inline View<Stop, 1> stops_of(const Fleet& fleet, Int slot) {
     return fleet.stop[slot].first(fleet.route[slot].length);

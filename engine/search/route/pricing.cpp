@@ -41,8 +41,8 @@ Int least_airborne(const ProblemData& data, Int k, View<const Stop, 1> stops,
 
 // Return how long a route lasts at least from when truck or drone first leaves it, as drones have
 // to be waited for, but for breaks that aren't paid. In place: take-offs as soon as may be.
-Int least_lasting(const ProblemData& data, const Route& route, View<const Stop, 1> stops,
-                  View<Sortie, 1> sorties) {
+Int least_lasting(const ProblemData& data, const Tour& tour) {
+    const auto& [route, stops, trips, sorties] = tour;
     const VehicleType& type = data.type[route.type];
     const NodeTable places = data.place.by_truck(type);
     Int time = 0;
@@ -68,7 +68,8 @@ Int least_lasting(const ProblemData& data, const Route& route, View<const Stop, 
 //
 // Its legs, services and reloads last so long, and its breaks and rests, as far as they are paid
 // and can't be missed by whoever begins later.
-Int least_working(const ProblemData& data, const Route& route, View<const Stop, 1> stops) {
+Int least_working(const ProblemData& data, const Tour& tour) {
+    const auto& [route, stops, trips, sorties] = tour;
     const VehicleType& type = data.type[route.type];
     const NodeTable places = data.place.by_truck(type);
     Int driving = 0, lasting = 0;
@@ -84,20 +85,20 @@ Int least_working(const ProblemData& data, const Route& route, View<const Stop, 
 
 }  // namespace
 
-Int spare_time(const ProblemData& data, const Route& route, View<const Stop, 1> stops) {
-    return rests_in_time(data.type[route.type]) ? route.working - least_working(data, route, stops)
-                                                : idle_time(route);
+Int spare_time(const ProblemData& data, const Tour& tour) {
+    return rests_in_time(data.type[tour.route.type])
+               ? tour.route.working - least_working(data, tour)
+               : idle_time(tour.route);
 }
 
 LeastPrice least_cost(const ProblemData& data, const Fleet& fleet, Int slot) {
-    const Route& route = fleet.route[slot];
-    const View<const Stop, 1> stops = fleet.stop[slot];
-    const View<Sortie, 1> sorties = fleet.sortie[slot];
+    const Tour tour = tour_of(fleet, slot);
+    const auto& [route, stops, trips, sorties] = tour;
     const VehicleType& type = data.type[route.type];
     const Rate& rate = data.rate[route.type];
-    Int working = least_working(data, route, stops);
+    Int working = least_working(data, tour);
     if (route.sorties > 0) {
-        working = std::max(working, least_lasting(data, route, stops, sorties));
+        working = std::max(working, least_lasting(data, tour));
     }
     double cost = rate.fixed + work_cost(rate, paid_work(type, none, working));
     for (const Trip& trip : trips_of(fleet, slot)) {
@@ -123,40 +124,36 @@ LeastPrice least_cost(const ProblemData& data, const Fleet& fleet, Int slot) {
 namespace {
 
 // Return when truck or drone first leaves the depot on a settled route.
-Int settled_departure(const ProblemData& data, const Route& route, View<const Stop, 1> stops,
-                      View<const Sortie, 1> sorties) {
-    return counted_from(data.type[route.type], departure_of(data, route, stops, sorties, 0));
+Int settled_departure(const ProblemData& data, const Tour& tour) {
+    return counted_from(data.type[tour.route.type], departure_of(data, tour, 0));
 }
 
 // Tell whether a route with drones works too long unless it begins later than it could.
 //
 // Whether they then come in the order that its times were found by has to be seen.
-bool has_to_wait(const ProblemData& data, const Route& route, View<const Stop, 1> stops,
-                 View<const Sortie, 1> sorties) {
-    if (route.sorties == 0) return false;
-    const Int soonest = settled_departure(data, route, stops, sorties);
-    return !may_work(data.type[route.type], route.end - soonest - route.unpaid);
+bool has_to_wait(const ProblemData& data, const Tour& tour) {
+    if (tour.route.sorties == 0) return false;
+    const Int soonest = settled_departure(data, tour);
+    return !may_work(data.type[tour.route.type], tour.route.end - soonest - tour.route.unpaid);
 }
 
 }  // namespace
 
 bool price_timed(const ProblemData& data, const Fleet& fleet, Int slot, bool& settled) {
-    Route& route = fleet.route[slot];
-    const View<Stop, 1> stops = fleet.stop[slot];
-    const View<Trip, 1> trips = fleet.trip[slot];
-    const View<Sortie, 1> sorties = fleet.sortie[slot];
+    const Tour tour = tour_of(fleet, slot);
+    const auto& [route, stops, trips, sorties] = tour;
     const VehicleType& type = data.type[route.type];
     const bool held_back = data.evaluation[route.type].held_back;
-    Int departure = first_departure(data, route, stops, sorties);
-    settled = held_back || has_to_wait(data, route, stops, sorties);
+    Int departure = first_departure(data, tour);
+    settled = held_back || has_to_wait(data, tour);
     if (settled) {
-        if (!settle(data, route, stops, trips, sorties)) return false;
-        departure = settled_departure(data, route, stops, sorties);
+        if (!settle(data, tour)) return false;
+        departure = settled_departure(data, tour);
     }
-    if (lags_count(data) && !keeps_all_lags(data, route, stops, sorties)) return false;
+    if (lags_count(data) && !keeps_all_lags(data, tour)) return false;
     route.working = route.end - departure - route.unpaid;
     if (!may_work(type, route.working)) return false;
-    const auto [cost, early] = price_route(data, route, stops, trips, sorties);
+    const auto [cost, early] = price_route(data, tour);
     fleet.cost[slot] = cost;
     if (loads_cost(data, route.type)) fleet.cost[slot] += load_cost(data, fleet, slot);
     fleet.early[slot] = held_back ? early : 0.0;
@@ -164,12 +161,9 @@ bool price_timed(const ProblemData& data, const Fleet& fleet, Int slot, bool& se
 }
 
 bool price_driven(const ProblemData& data, const Fleet& fleet, Int slot, bool& settled) {
-    Route& route = fleet.route[slot];
-    const View<Stop, 1> stops = fleet.stop[slot];
-    const View<Trip, 1> trips = fleet.trip[slot];
-    const View<Sortie, 1> sorties = fleet.sortie[slot];
-    const VehicleType& type = data.type[route.type];
-    if (holds_count(data, route.type) && !hold_trips(data, route, stops, trips, sorties)) {
+    const Tour tour = tour_of(fleet, slot);
+    const VehicleType& type = data.type[tour.route.type];
+    if (holds_count(data, tour.route.type) && !hold_trips(data, tour)) {
         return false;
     }
     if (shares_chargers(type) && !charge_in_turn(data, fleet, slot)) return false;
@@ -177,11 +171,9 @@ bool price_driven(const ProblemData& data, const Fleet& fleet, Int slot, bool& s
 }
 
 bool price_loaded(const ProblemData& data, const Fleet& fleet, Int slot, bool& settled) {
-    Route& route = fleet.route[slot];
-    const View<Stop, 1> stops = fleet.stop[slot];
-    clear_holds(route, stops, fleet.trip[slot]);
-    return drive_forward(data, route, stops, fleet.sortie[slot]) &&
-           price_driven(data, fleet, slot, settled);
+    const Tour tour = tour_of(fleet, slot);
+    clear_holds(tour);
+    return drive_forward(data, tour) && price_driven(data, fleet, slot, settled);
 }
 
 }  // namespace tandem

@@ -23,15 +23,14 @@ bool price_driven(const ProblemData& data, const Fleet& fleet, Int slot, bool& s
 bool price_loaded(const ProblemData& data, const Fleet& fleet, Int slot, bool& settled);
 
 // Let every trip begin as soon as possible. In place.
-void clear_holds(const Route& route, View<Stop, 1> stops, View<const Trip, 1> trips);
+void clear_holds(const Tour& tour);
 
 // Let each trip of a timed route begin as late as costs nothing. In place; false if a rule is
 // broken.
-bool settle(const ProblemData& data, Route& route, View<Stop, 1> stops, View<const Trip, 1> trips,
-            View<Sortie, 1> sorties);
+bool settle(const ProblemData& data, const Tour& tour);
 
 // Return how long a route could work longer at no cost.
-Int spare_time(const ProblemData& data, const Route& route, View<const Stop, 1> stops);
+Int spare_time(const ProblemData& data, const Tour& tour);
 
 // What a route costs at least, and how long its vehicle works then.
 struct LeastPrice {

@@ -25,8 +25,7 @@ constexpr Int most_draws = 64;
 // not once the search must end, since a driver may begin at each of a thousand changes of speed.
 bool price_later(const ProblemData& data, const Fleet& fleet, Int slot, double least,
                  bool& settled) {
-    Route& route = fleet.route[slot];
-    const View<Stop, 1> stops = fleet.stop[slot];
+    const auto [route, stops, trips, sorties] = tour_of(fleet, slot);
     const VehicleType& type = data.type[route.type];
     const Int release = stops[0].release;
     Int begin = std::max(release, type.shift_earliest), chosen = none;
@@ -61,24 +60,24 @@ bool price_later(const ProblemData& data, const Fleet& fleet, Int slot, double l
 
 // Write all else that follows from when a route's trips begin, of one that has a price. In place.
 void look_around(const ProblemData& data, const Fleet& fleet, Int slot, bool settled) {
-    Route& route = fleet.route[slot];
-    const View<Stop, 1> stops = fleet.stop[slot];
-    if (routes_meet(data)) plan_starts(route, stops);
+    const Tour tour = tour_of(fleet, slot);
+    const auto& [route, stops, trips, sorties] = tour;
+    if (routes_meet(data)) plan_starts(tour);
     if (joins_breaks(data, route) && (settled || route.placed == breaks_kept)) {
         // Whoever is inserted behind a stop may be reached by other breaks.
         stops[0].release = fleet.trip(slot, 0).release;
         clear_rests(data.type[route.type], stops.first(route.length));
-        clear_holds(route, stops, fleet.trip[slot]);
-        drive_as_placed(data, route, stops, fleet.sortie[slot]);
-        if (lacks_break(data.type[route.type], route, stops)) note_soonest(data, route, stops);
+        clear_holds(tour);
+        drive_as_placed(data, tour);
+        if (lacks_break(data.type[route.type], tour)) note_soonest(data, tour);
     } else if (settled) {
-        clear_holds(route, stops, fleet.trip[slot]);
-        drive_forward(data, route, stops, fleet.sortie[slot]);
+        clear_holds(tour);
+        drive_forward(data, tour);
     }
     if (data.evaluation[route.type].retimed || any_rest(data.type[route.type], route)) {
-        open_up(route, stops);
+        open_up(tour);
     } else {
-        look_back(data, route, stops);
+        look_back(data, tour);
     }
 }
 
@@ -128,8 +127,7 @@ bool find_open(const ProblemData& data, const Fleet& fleet, Int slot) {
 
 // Let the trips of a route end, and the next begin, where that costs least. In place.
 void choose_reloads(const ProblemData& data, const Fleet& fleet, Int slot) {
-    const Route& route = fleet.route[slot];
-    const View<Stop, 1> stops = fleet.stop[slot];
+    const auto [route, stops, trips, sorties] = tour_of(fleet, slot);
     for (Int p = 1; p < route.length - 1; ++p) {
         if (stops[p].kind != end_stop) continue;
         if (depots_differ(data, route.type)) {
@@ -150,15 +148,12 @@ void choose_reloads(const ProblemData& data, const Fleet& fleet, Int slot) {
 
 // Write what a route carries, and what other routes let it do. In place; false if it breaks a rule.
 bool load_route(const ProblemData& data, const Fleet& fleet, Int slot) {
-    Route& route = fleet.route[slot];
-    const View<Stop, 1> stops = fleet.stop[slot];
-    const View<Trip, 1> trips = fleet.trip[slot];
-    const View<Sortie, 1> sorties = fleet.sortie[slot];
-    if (!load_trips(data, route, stops, trips, sorties)) return false;
+    const Tour tour = tour_of(fleet, slot);
+    if (!load_trips(data, tour)) return false;
     if (!has_batteries(data, fleet, slot)) return false;
     if (orders_cross(data)) note_spans(data, fleet, slot);
-    if (some_paired(data.pair) && !keeps_pairs(data, route, stops, trips, sorties)) return false;
-    if (goods_count(data) && !take_goods(data.goods, route, stops, trips, sorties)) return false;
+    if (some_paired(data.pair) && !keeps_pairs(data, tour)) return false;
+    if (goods_count(data) && !take_goods(data.goods, tour)) return false;
     return tiers_aboard(fleet) == 0 || weigh(data, fleet, slot);
 }
 
@@ -203,19 +198,15 @@ bool refresh(const ProblemData& data, const Fleet& fleet, Int slot) {
 }
 
 bool refresh_as_planned(const ProblemData& data, const Fleet& fleet, Int slot) {
-    Route& route = fleet.route[slot];
-    const View<Stop, 1> stops = fleet.stop[slot];
-    const View<Trip, 1> trips = fleet.trip[slot];
-    const View<Sortie, 1> sorties = fleet.sortie[slot];
+    const Tour tour = tour_of(fleet, slot);
     if (!load_route(data, fleet, slot)) return false;
-    for (const Trip& trip : trips.first(route.trips)) {
-        Stop& stop = stops[trip.first];
+    for (const Trip& trip : tour.trips.first(tour.route.trips)) {
+        Stop& stop = tour.stops[trip.first];
         stop.release = std::max(stop.release, stop.free_start);
         stop.hold = none;
     }
     bool settled = false;
-    if (!drive_forward(data, route, stops, sorties) ||
-        any_too_long(data, route, stops, trips, sorties) || !has_places(data, fleet, slot) ||
+    if (!drive_forward(data, tour) || any_too_long(data, tour) || !has_places(data, fleet, slot) ||
         !price_timed(data, fleet, slot, settled)) {
         return false;
     }
@@ -267,8 +258,8 @@ Int draw_customer(const ProblemData& data, const Fleet& fleet, Int focus,
     return any_customer(data, fleet, rng);
 }
 
-void note_places(View<Place, 1> places, const Route& route, View<const Stop, 1> stops,
-                 View<const Sortie, 1> sorties, Int slot) {
+void note_places(View<Place, 1> places, const Tour& tour, Int slot) {
+    const auto& [route, stops, trips, sorties] = tour;
     for (Int p = 0; p < route.length; ++p) {
         if (stops[p].kind == customer_stop) places[stops[p].node] = {slot, p, nowhere};
     }

@@ -56,12 +56,11 @@ inline Int stop_beside(const Fleet& fleet, Int node) {
 }
 
 // Write where the customers of the route in a slot are. In place: `places` (node,).
-void note_places(View<Place, 1> places, const Route& route, View<const Stop, 1> stops,
-                 View<const Sortie, 1> sorties, Int slot);
+void note_places(View<Place, 1> places, const Tour& tour, Int slot);
 
 // Write where the customers of a route are. In place.
 inline void locate(const Fleet& fleet, Int slot) {
-    note_places(fleet.where, fleet.route[slot], fleet.stop[slot], fleet.sortie[slot], slot);
+    note_places(fleet.where, tour_of(fleet, slot), slot);
 }
 
 }  // namespace tandem

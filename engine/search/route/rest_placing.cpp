@@ -240,15 +240,14 @@ void clear_rests(const VehicleType& type, View<Stop, 1> stops) {
     for (Stop& stop : stops) forget_rests(type, stop);
 }
 
-bool place_rests(const ProblemData& data, const Route& route, View<Stop, 1> stops,
-                 View<Sortie, 1> sorties, const LeastWork& least) {
-    const RestRoute resting(data, route, stops, sorties, least);
+bool place_rests(const ProblemData& data, const Tour& tour, const LeastWork& least) {
+    const RestRoute resting(data, tour, least);
     BestRests best;
     TakenRests taken;
     make_ready(resting.truck, resting.stops, resting.sorties);
     resting.note_latest();
     const bool looks_at_all =
-        route.sorties > 0 || lags_count(data) || !has_driving_rules(resting.type);
+        tour.route.sorties > 0 || lags_count(data) || !has_driving_rules(resting.type);
     if (looks_at_all || !rest_late(resting, best, taken)) {
         Placing(resting, best, taken, looks_at_all ? few : RestLabels::all).run();
     }

@@ -5,20 +5,19 @@
 namespace tandem {
 namespace {
 
-Truck resting_truck(const ProblemData& data, const Route& route, View<const Stop, 1> stops) {
-    Truck truck(data, route.type);
-    if (truck.resting) truck.begin = begin_of(truck.type, stops);
+Truck resting_truck(const ProblemData& data, const Tour& tour) {
+    Truck truck(data, tour.route.type);
+    if (truck.resting) truck.begin = begin_of(truck.type, tour.stops);
     return truck;
 }
 
 }  // namespace
 
-RestRoute::RestRoute(const ProblemData& data, const Route& route, View<Stop, 1> row,
-                     View<Sortie, 1> flights, const LeastWork& least)
-    : truck(resting_truck(data, route, row)),
+RestRoute::RestRoute(const ProblemData& data, const Tour& tour, const LeastWork& least)
+    : truck(resting_truck(data, tour)),
       type(truck.type),
-      stops(row.first(route.length)),
-      sorties(flights.first(route.sorties)),
+      stops(tour.stops.first(tour.route.length)),
+      sorties(tour.sorties.first(tour.route.sorties)),
       due(type, truck.begin),
       least_(least) {}
 
@@ -168,44 +167,43 @@ Int driving_on(const ProblemData& data, const VehicleType& type, View<const Stop
 }
 
 // Return when a timed route begins that begins as late as that costs nothing.
-Int last_begin(const ProblemData& data, Route& route, View<const Stop, 1> stops,
-               View<const Sortie, 1> sorties) {
-    const Int departure = first_departure(data, route, stops, sorties);
-    return counted_begin(data.type[route.type], departure - route.offset);
+Int last_begin(const ProblemData& data, const Tour& tour) {
+    const Int departure = first_departure(data, tour);
+    return counted_begin(data.type[tour.route.type], departure - tour.route.offset);
 }
 
 // Let a timed route without rests begin at `hold`, if it ends no later then. In place; false if
 // not, and it is as before.
-bool begin_later(const ProblemData& data, Route& route, View<Stop, 1> stops,
-                 View<Sortie, 1> sorties, Int hold) {
+bool begin_later(const ProblemData& data, const Tour& tour, Int hold) {
+    const auto& [route, stops, trips, sorties] = tour;
     const Int end = route.end, before = std::exchange(stops[0].hold, hold);
-    if (drive_as_placed(data, route, stops, sorties) && route.end <= end) return true;
+    if (drive_as_placed(data, tour) && route.end <= end) return true;
     stops[0].hold = before;
-    drive_as_placed(data, route, stops, sorties);
+    drive_as_placed(data, tour);
     return false;
 }
 
 // Write rests and times of a route that begins no sooner than `hold`. In place; false if a rule is
 // broken.
-bool rest_from(const ProblemData& data, Route& route, View<Stop, 1> stops, View<Sortie, 1> sorties,
-               Int hold, const LeastWork& least) {
+bool rest_from(const ProblemData& data, const Tour& tour, Int hold, const LeastWork& least) {
+    const auto& [route, stops, trips, sorties] = tour;
     clear_rests(data.type[route.type], stops.first(route.length));
     stops[0].hold = hold;
-    return place_rests(data, route, stops, sorties, least) &&
-           drive_as_placed(data, route, stops, sorties);
+    return place_rests(data, tour, least) && drive_as_placed(data, tour);
 }
 
 // Return when a timed route without rests ends, and how long it works.
-LeastWork least_work(const ProblemData& data, const Route& route, View<const Stop, 1> stops) {
+LeastWork least_work(const ProblemData& data, const Tour& tour) {
+    const auto& [route, stops, trips, sorties] = tour;
     const Int depart = std::min(stops[route.length - 1].depart, route.end - route.cum);
     return {route.end, route.end - counted_from(data.type[route.type], depart)};
 }
 
 // Return by how much later than soonest a timed route without drones may begin and end no later.
-Int slack_of_begin(const ProblemData& data, const Route& route, View<const Stop, 1> stops) {
-    const NodeTable places = data.place.by_truck(data.type[route.type]);
+Int slack_of_begin(const ProblemData& data, const Tour& tour) {
+    const NodeTable places = data.place.by_truck(data.type[tour.route.type]);
     Int waited = 0, slack = far;
-    for (const Stop& stop : stops.first(route.length)) {
+    for (const Stop& stop : tour.stops.first(tour.route.length)) {
         if (!has_window(stop)) continue;
         const Windows place = places[stop.node];
         slack = std::min(slack, waited + place.as_late(stop.arrival) - stop.arrival);
@@ -215,18 +213,18 @@ Int slack_of_begin(const ProblemData& data, const Route& route, View<const Stop,
 }
 
 // As `drive_by_rules`, where times hang on where breaks and rests are.
-bool drive_with_pauses(const ProblemData& data, Route& route, View<Stop, 1> stops,
-                       View<Sortie, 1> sorties) {
+bool drive_with_pauses(const ProblemData& data, const Tour& tour) {
+    const auto& [route, stops, trips, sorties] = tour;
     const VehicleType& type = data.type[route.type];
     route.driving = 0;
-    const bool driven = drive_as_placed(data, route, stops, sorties);
+    const bool driven = drive_as_placed(data, tour);
     if (driven) {
         const Int driving = follows_driver(type) ? route.legs.duration
                             : has_driving_rules(type)
                                 ? driving_on(data, type, stops.first(route.length))
                                 : 0;
         const Int begin = counted_begin(type, begin_of(type, stops));
-        if (!lacks_break(type, route, stops) && needs_no_rest(type, driving, route.end - begin)) {
+        if (!lacks_break(type, tour) && needs_no_rest(type, driving, route.end - begin)) {
             route.driving = driving;
             return true;
         }
@@ -235,16 +233,16 @@ bool drive_with_pauses(const ProblemData& data, Route& route, View<Stop, 1> stop
     if (!driven && route.sorties == 0) return false;
     const bool may_wait =
         driven && limits_work(type) && route.sorties == 0 && stops[0].hold == none;
-    const Int slack = may_wait ? slack_of_begin(data, route, stops) : 0;
+    const Int slack = may_wait ? slack_of_begin(data, tour) : 0;
     route.driving = far;
     const Int later = begin_of(type, stops) + slack;
     const LeastWork least{driven ? route.end : none, 0};
-    const bool rested = rest_from(data, route, stops, sorties, stops[0].hold, least);
+    const bool rested = rest_from(data, tour, stops[0].hold, least);
     if (slack == 0) return rested;
     // Whoever begins later hasn't worked for so long.
     const Int end = rested ? route.end : far;
-    if (rest_from(data, route, stops, sorties, later, least) && route.end <= end) return true;
-    return rested && rest_from(data, route, stops, sorties, none, least);
+    if (rest_from(data, tour, later, least) && route.end <= end) return true;
+    return rested && rest_from(data, tour, none, least);
 }
 
 }  // namespace
@@ -259,15 +257,15 @@ bool may_save_more(const ProblemData& data, const Route& route) {
            any_rest(type, route);
 }
 
-bool drive_by_rules(const ProblemData& data, Route& route, View<Stop, 1> stops,
-                    View<Sortie, 1> sorties) {
+bool drive_by_rules(const ProblemData& data, const Tour& tour) {
+    const auto& [route, stops, trips, sorties] = tour;
     const VehicleType& type = data.type[route.type];
     clear_rests(type, stops.first(route.length));
-    if (rests_in_time(type)) return drive_with_pauses(data, route, stops, sorties);
-    if (!drive_as_placed(data, route, stops, sorties)) return false;
+    if (rests_in_time(type)) return drive_with_pauses(data, tour);
+    if (!drive_as_placed(data, tour)) return false;
     const Int driving = driving_on(data, type, stops.first(route.length));
     const Int soonest = counted_begin(type, begin_of(type, stops));
-    const Int latest = last_begin(data, route, stops, sorties);
+    const Int latest = last_begin(data, tour);
     route.driving = driving;
     // With drones, who may come in another order then, a route may have to begin before; so with
     // orders, by which all waits that comes behind others. Trips that are held back begin when they
@@ -277,24 +275,24 @@ bool drive_by_rules(const ProblemData& data, Route& route, View<Stop, 1> stops,
     if (needs_no_rest(type, driving, route.end - begin)) return true;
     const bool may_wait = stops[0].hold == none && latest > soonest;
     if (may_wait && needs_no_rest(type, driving, route.end - latest) &&
-        begin_later(data, route, stops, sorties, latest)) {
+        begin_later(data, tour, latest)) {
         return true;
     }
     route.driving = far;
-    const LeastWork least = least_work(data, route, stops);
-    if (!rest_from(data, route, stops, sorties, stops[0].hold, least)) {
+    const LeastWork least = least_work(data, tour);
+    if (!rest_from(data, tour, stops[0].hold, least)) {
         // Whoever begins later hasn't worked for so long.
-        return may_wait && rest_from(data, route, stops, sorties, latest, least);
+        return may_wait && rest_from(data, tour, latest, least);
     }
     if (!limits_work(type) || stops[0].hold != none) return true;
-    const Int later = last_begin(data, route, stops, sorties);
+    const Int later = last_begin(data, tour);
     const Int end = route.end, working = end - later;
     if (later <= soonest) return true;
-    if (rest_from(data, route, stops, sorties, later, least) && route.end <= end &&
-        route.end - last_begin(data, route, stops, sorties) < working) {
+    if (rest_from(data, tour, later, least) && route.end <= end &&
+        route.end - last_begin(data, tour) < working) {
         return true;
     }
-    return rest_from(data, route, stops, sorties, none, least);
+    return rest_from(data, tour, none, least);
 }
 
 bool may_have_to_rest(const ProblemData& data, const Fleet& fleet, Int slot, Int p, Int node) {

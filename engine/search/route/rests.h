@@ -154,8 +154,7 @@ void clear_rests(const VehicleType& type, View<Stop, 1> stops);
 
 // Write the rests of the route whose work costs least, and of these that which ends first; with
 // breaks, that which ends first. In place; false if a rule is broken.
-bool place_rests(const ProblemData& data, const Route& route, View<Stop, 1> stops,
-                 View<Sortie, 1> sorties, const LeastWork& least);
+bool place_rests(const ProblemData& data, const Tour& tour, const LeastWork& least);
 
 // What of a route lies ahead: how long its legs are, and all of it, as far as nobody waits or
 // rests.
@@ -214,8 +213,7 @@ private:
 
 class RestRoute {
 public:
-    RestRoute(const ProblemData& data, const Route& route, View<Stop, 1> row,
-              View<Sortie, 1> flights, const LeastWork& least);
+    RestRoute(const ProblemData& data, const Tour& tour, const LeastWork& least);
 
     const Truck truck;
     const VehicleType& type;
@@ -331,8 +329,7 @@ bool may_save_more(const ProblemData& data, const Route& route);
 // two ways to have come somewhere, one is no worse if the truck is there as soon, with no more
 // driven or worked since the last rest, and the same drones out since the same instants. Who needs
 // none is timed as any other.
-bool drive_by_rules(const ProblemData& data, Route& route, View<Stop, 1> stops,
-                    View<Sortie, 1> sorties);
+bool drive_by_rules(const ProblemData& data, const Tour& tour);
 
 // Tell whether somebody may have to rest on a route who serves a customer more behind stop `p`, or
 // has to already.

@@ -11,8 +11,8 @@ namespace {
 
 // Tell whether the truck stops at a launch site only once its customer has been served, if it has
 // one: by the truck before, or by a drone that has been recovered before.
-bool halts_in_order(const ProblemData& data, const Route& route, View<const Stop, 1> stops,
-                    View<const Sortie, 1> sorties) {
+bool halts_in_order(const ProblemData& data, const Tour& tour) {
+    const auto& [route, stops, trips, sorties] = tour;
     for (Int p = 0; p < route.length; ++p) {
         if (stops[p].kind != halt_stop) continue;
         const Int node = data.halt_after[stops[p].node];
@@ -33,8 +33,8 @@ bool halts_in_order(const ProblemData& data, const Route& route, View<const Stop
 }
 
 // Return what it costs on top by which vehicle a route's customers are served.
-double vehicle_cost_on(const ProblemData& data, const Route& route, View<const Stop, 1> stops,
-                       View<const Sortie, 1> sorties) {
+double vehicle_cost_on(const ProblemData& data, const Tour& tour) {
+    const auto& [route, stops, trips, sorties] = tour;
     const View<const double, 1> price = data.vehicle_cost[route.type];
     double cost = 0.0;
     for (const Stop& stop : stops.first(route.length)) cost += price[stop.node];
@@ -82,13 +82,13 @@ Leg legs_on(const ProblemData& data, const VehicleType& type, View<const Stop, 1
     return legs;
 }
 
-bool load_trips(const ProblemData& data, Route& route, View<Stop, 1> stops, View<Trip, 1> trips,
-                View<const Sortie, 1> sorties) {
+bool load_trips(const ProblemData& data, const Tour& tour) {
+    const auto& [route, stops, trips, sorties] = tour;
     const Int k = route.type;
     const VehicleType& type = data.type[k];
     const TravelLegs legs = legs_of(data.leg, type.travel);
     const Int most_trips = std::min(type.max_trips, trips.size());
-    if (is_apart(data, k)) place_ends(data, k, route, stops);
+    if (is_apart(data, k)) place_ends(data, k, tour);
     Int index = -1, s = 0, flown = 0;
     for (Int p = 0; p < route.length; ++p) {
         Stop& stop = stops[p];
@@ -133,26 +133,25 @@ bool load_trips(const ProblemData& data, Route& route, View<Stop, 1> stops, View
         route.legs = legs_on(data, type, stops, 0, route.length - 1);
         if (!may_drive_all(type, route.legs)) return false;
     }
-    return !has_halts(data) || halts_in_order(data, route, stops, sorties);
+    return !has_halts(data) || halts_in_order(data, tour);
 }
 
-bool drive_forward(const ProblemData& data, Route& route, View<Stop, 1> stops,
-                   View<Sortie, 1> sorties) {
-    const VehicleType& type = data.type[route.type];
-    if (!may_pause(type)) return drive_as_placed(data, route, stops, sorties);
-    if (route.placed == breaks_by_end) return drive_by_rules(data, route, stops, sorties);
-    return drive_as_placed(data, route, stops, sorties) &&
-           (route.placed == breaks_left_out || !lacks_break(type, route, stops));
+bool drive_forward(const ProblemData& data, const Tour& tour) {
+    const VehicleType& type = data.type[tour.route.type];
+    if (!may_pause(type)) return drive_as_placed(data, tour);
+    if (tour.route.placed == breaks_by_end) return drive_by_rules(data, tour);
+    return drive_as_placed(data, tour) &&
+           (tour.route.placed == breaks_left_out || !lacks_break(type, tour));
 }
 
-bool drive_as_placed(const ProblemData& data, Route& route, View<Stop, 1> stops,
-                     View<Sortie, 1> sorties) {
+bool drive_as_placed(const ProblemData& data, const Tour& tour) {
+    Route& route = tour.route;
     Truck truck(data, route.type);
-    if (truck.resting) truck.begin = begin_of(truck.type, stops);
+    if (truck.resting) truck.begin = begin_of(truck.type, tour.stops);
     route.unpaid = 0;
-    const Int length = route.length, count = route.sorties;
-    stops = stops.first(length);
-    sorties = sorties.first(count);
+    const Int length = route.length;
+    const View<Stop, 1> stops = tour.stops.first(length);
+    const View<Sortie, 1> sorties = tour.sorties.first(route.sorties);
     PaidFront front{truck.type.shift_earliest, 0, far};
     BlockSums sums;
     sums.driver = driver_from(truck.type, truck.begin);
@@ -185,7 +184,8 @@ bool drive_as_placed(const ProblemData& data, Route& route, View<Stop, 1> stops,
     return may_travel(truck.type, route.legs.duration);
 }
 
-void look_back(const ProblemData& data, const Route& route, View<Stop, 1> stops) {
+void look_back(const ProblemData& data, const Tour& tour) {
+    const auto& [route, stops, trips, sorties] = tour;
     const NodeTable places = data.place.by_truck(data.type[route.type]);
     const bool single = places[0].are_single();
     PaidRear rear{far, none, 0, none};
@@ -208,15 +208,15 @@ void look_back(const ProblemData& data, const Route& route, View<Stop, 1> stops)
     }
 }
 
-void open_up(const Route& route, View<Stop, 1> stops) {
-    for (Stop& stop : stops.first(route.length)) {
+void open_up(const Tour& tour) {
+    for (Stop& stop : tour.stops.first(tour.route.length)) {
         stop.latest = far;
         stop.early = none;
     }
 }
 
-WindowCosts price_windows(const ProblemData& data, const Route& route, View<Stop, 1> stops,
-                          View<const Sortie, 1> sorties) {
+WindowCosts price_windows(const ProblemData& data, const Tour& tour) {
+    const auto& [route, stops, trips, sorties] = tour;
     WindowCosts costs{0.0, 0.0};
     for (Stop& stop : stops.first(route.length)) {
         if (stop.kind != customer_stop) continue;
@@ -256,8 +256,8 @@ double sortie_cost(const ProblemData& data, Int k, View<const Stop, 1> stops,
                        recovery_end(data.type[row], sortie.begin) - sortie.takeoff);
 }
 
-Int first_departure(const ProblemData& data, Route& route, View<const Stop, 1> stops,
-                    View<const Sortie, 1> sorties) {
+Int first_departure(const ProblemData& data, const Tour& tour) {
+    const auto& [route, stops, trips, sorties] = tour;
     const VehicleType& type = data.type[route.type];
     const Int depart = std::min(stops[route.length - 1].depart, route.end - route.cum);
     route.offset = 0;
@@ -276,8 +276,8 @@ Int first_departure(const ProblemData& data, Route& route, View<const Stop, 1> s
     return counted_from(type, depart + route.offset);
 }
 
-RoutePrice price_route(const ProblemData& data, const Route& route, View<Stop, 1> stops,
-                       View<const Trip, 1> trips, View<const Sortie, 1> sorties) {
+RoutePrice price_route(const ProblemData& data, const Tour& tour) {
+    const auto& [route, stops, trips, sorties] = tour;
     const Int k = route.type;
     const Rate& rate = data.rate[k];
     RoutePrice price{rate.fixed, 0.0};
@@ -296,9 +296,9 @@ RoutePrice price_route(const ProblemData& data, const Route& route, View<Stop, 1
     for (const Sortie& sortie : sorties.first(route.sorties)) {
         price.cost += sortie_cost(data, k, stops, sortie);
     }
-    if (!data.vehicle_cost.empty()) price.cost += vehicle_cost_on(data, route, stops, sorties);
+    if (!data.vehicle_cost.empty()) price.cost += vehicle_cost_on(data, tour);
     if (data.evaluation[k].priced) {
-        const auto [late, early] = price_windows(data, route, stops, sorties);
+        const auto [late, early] = price_windows(data, tour);
         price.cost += late + early;
         price.early = early;
     }

@@ -31,26 +31,23 @@ Leg legs_on(const ProblemData& data, const VehicleType& type, View<const Stop, 1
             Int last);
 
 // Write loads, releases and distances of the trips. In place; false if one is too much.
-bool load_trips(const ProblemData& data, Route& route, View<Stop, 1> stops, View<Trip, 1> trips,
-                View<const Sortie, 1> sorties);
+bool load_trips(const ProblemData& data, const Tour& tour);
 
 // Write times as soon as possible, stop after stop, with breaks where they are placed. In place;
 // false if a rule is broken.
-bool drive_as_placed(const ProblemData& data, Route& route, View<Stop, 1> stops,
-                     View<Sortie, 1> sorties);
+bool drive_as_placed(const ProblemData& data, const Tour& tour);
 
 // As `drive_as_placed`, with breaks placed so that the route ends as soon as possible, unless they
 // have to stay where they are.
-bool drive_forward(const ProblemData& data, Route& route, View<Stop, 1> stops,
-                   View<Sortie, 1> sorties);
+bool drive_forward(const ProblemData& data, const Tour& tour);
 
 // Write how late, and how early, each block may be reached, and what follows it. In place.
 //
 // As docs/develop/route-times.md derives.
-void look_back(const ProblemData& data, const Route& route, View<Stop, 1> stops);
+void look_back(const ProblemData& data, const Tour& tour);
 
 // Mark a route whose legs change with time: nothing is known of later arrivals. In place.
-void open_up(const Route& route, View<Stop, 1> stops);
+void open_up(const Tour& tour);
 
 // Return what being late at a customer costs; nothing at a depot.
 inline double lateness_cost(const ProblemData& data, Int node, Int arrival) {
@@ -75,8 +72,7 @@ struct WindowCosts {
 // Return what lateness and what waiting cost on a timed route.
 //
 // And write it for each stop. In place.
-WindowCosts price_windows(const ProblemData& data, const Route& route, View<Stop, 1> stops,
-                          View<const Sortie, 1> sorties);
+WindowCosts price_windows(const ProblemData& data, const Tour& tour);
 
 // Return what the flight of a sortie costs that is in the air so long, recovery included.
 double flight_cost(const ProblemData& data, Int k, View<const Stop, 1> stops, const Sortie& sortie,
@@ -88,8 +84,7 @@ double sortie_cost(const ProblemData& data, Int k, View<const Stop, 1> stops, co
 // Return when truck or drone first leaves the depot, as late as costs nothing.
 //
 // And write how long before the truck a drone does. In place.
-Int first_departure(const ProblemData& data, Route& route, View<const Stop, 1> stops,
-                    View<const Sortie, 1> sorties);
+Int first_departure(const ProblemData& data, const Tour& tour);
 
 // Return how much of the work on a timed route is paid.
 inline PaidWork work_of(const VehicleType& type, const Route& route) {
@@ -110,7 +105,6 @@ struct RoutePrice {
 };
 
 // Return the cost of a timed route, and what waiting for windows costs of it.
-RoutePrice price_route(const ProblemData& data, const Route& route, View<Stop, 1> stops,
-                       View<const Trip, 1> trips, View<const Sortie, 1> sorties);
+RoutePrice price_route(const ProblemData& data, const Tour& tour);
 
 }  // namespace tandem

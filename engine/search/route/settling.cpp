@@ -26,8 +26,8 @@ bool has_sortie(View<const Sortie, 1> sorties, Int p) {
 // Return the latest start of a trip that costs nothing, by each stop's last arrival.
 //
 // Where lags count, stops note by when service may begin.
-Int latest_by_stops(const ProblemData& data, const Route& route, View<Stop, 1> stops,
-                    View<const Sortie, 1> sorties, Int first) {
+Int latest_by_stops(const ProblemData& data, const Tour& tour, Int first) {
+    const auto& [route, stops, trips, sorties] = tour;
     const Int k = route.type, last = route.length - 1;
     const VehicleType& type = data.type[k];
     const NodeTable places = data.place.by_truck(type);
@@ -41,7 +41,7 @@ Int latest_by_stops(const ProblemData& data, const Route& route, View<Stop, 1> s
             stop.free_start = stop.start;
             if (plain) {
                 const Int service = places[stop.node].service_duration();
-                leave = std::min(leave, latest_leave(data, route, stops, sorties, p, service));
+                leave = std::min(leave, latest_leave(data, tour, p, service));
                 stop.free_start = leave - service;
             }
         }
@@ -72,8 +72,8 @@ Int latest_by_stops(const ProblemData& data, const Route& route, View<Stop, 1> s
 
 // Return by when the trip that begins at a stop has to begin for a route to end as soon as it does,
 // as far as its truck tells.
-Int latest_by_end(const ProblemData& data, const Route& route, View<const Stop, 1> stops,
-                  Int first) {
+Int latest_by_end(const ProblemData& data, const Tour& tour, Int first) {
+    const auto& [route, stops, trips, sorties] = tour;
     const VehicleType& type = data.type[route.type];
     const NodeTable places = data.place.by_truck(type), own = data.place[0];
     Int latest = route.end;
@@ -90,8 +90,8 @@ Int latest_by_end(const ProblemData& data, const Route& route, View<const Stop, 
 //
 // If all is retimed, either by moving the whole trip within the windows that are met, or stop by
 // stop, which may reach others but leaves blocks with sorties as they are.
-Int latest_hold(const ProblemData& data, const Route& route, View<Stop, 1> stops,
-                View<const Sortie, 1> sorties, Int first) {
+Int latest_hold(const ProblemData& data, const Tour& tour, Int first) {
+    const auto& [route, stops, trips, sorties] = tour;
     Int hold = none;
     if (is_steady(data.type[route.type]) && !has_breaks(data.type[route.type]) &&
         (!lags_count(data) || route.sorties > 0)) {
@@ -102,12 +102,12 @@ Int latest_hold(const ProblemData& data, const Route& route, View<Stop, 1> stops
         }
     }
     if (data.evaluation[route.type].retimed) {
-        hold = std::max(hold, latest_by_stops(data, route, stops, sorties, first));
+        hold = std::max(hold, latest_by_stops(data, tour, first));
     }
     // Where drones fly from is left as it is by that; without a break on the way all may be later.
     const VehicleType& type = data.type[route.type];
     if (has_breaks(type) && route.sorties > 0 && !any_rest(type, route)) {
-        hold = std::max(hold, latest_by_end(data, route, stops, first));
+        hold = std::max(hold, latest_by_end(data, tour, first));
     }
     return hold;
 }
@@ -161,21 +161,15 @@ private:
 // Lets the trips of a timed route begin as late as costs nothing.
 class Settling {
 public:
-    Settling(const ProblemData& data, Route& route, View<Stop, 1> stops, View<const Trip, 1> trips,
-             View<Sortie, 1> sorties)
-        : data_(data),
-          route_(route),
-          stops_(stops.first(route.length)),
-          trips_(trips),
-          sorties_(sorties) {}
+    Settling(const ProblemData& data, const Tour& tour) : data_(data), tour_(tour) {}
 
     // False if a rule is broken.
     bool run() {
         Int again = may_lose_ ? settled_again : 0;
         for (Int index = 0; index < route_.trips;) {
-            Stop& stop = stops_[trips_[index].first];
+            Stop& stop = stops_[tour_.trips[index].first];
             const Int before = stop.hold;
-            const Int latest = latest_hold(data_, route_, stops_, sorties_, trips_[index].first);
+            const Int latest = latest_hold(data_, tour_, tour_.trips[index].first);
             if (latest > soonest(stop) && !hold_back(stop, latest)) return false;
             // Without some breaks it may begin even later.
             if (stop.hold == before || again-- <= 0) ++index;
@@ -221,7 +215,7 @@ private:
         if (restores && start.found() == before) {
             stop.hold = before;
             placed.write(stops_);
-            return drive_as_placed(data_, route_, stops_, sorties_);
+            return drive_as_placed(data_, tour_);
         }
         if (stop.hold == start.found() || anew(start.found()) <= 0) return true;
         // Drones in another order of arrival took longer, or breaks that are due.
@@ -233,9 +227,9 @@ private:
     template <class Drive>
     Int begun_at(Stop& stop, Int begin, const Drive& drive, Int end) {
         stop.hold = begin;
-        if (!drive(data_, route_, stops_, sorties_)) return far;
+        if (!drive(data_, tour_)) return far;
         const Int late = route_.end - end;
-        return late > 0 || !any_too_long(data_, route_, stops_, trips_, sorties_) ? late : far;
+        return late > 0 || !any_too_long(data_, tour_) ? late : far;
     }
 
     // Tell whether there are breaks that may be kept where the route begins later, if it ends no
@@ -247,10 +241,9 @@ private:
     }
 
     const ProblemData& data_;
-    Route& route_;
-    const View<Stop, 1> stops_;
-    const View<const Trip, 1> trips_;
-    const View<Sortie, 1> sorties_;
+    const Tour& tour_;
+    const Route& route_ = tour_.route;
+    const View<Stop, 1> stops_ = tour_.stops.first(route_.length);
     const VehicleType& type_ = data_.type[route_.type];
     const bool resting_ = rests_in_time(type_);
     const bool may_lose_ = resting_ || has_driving_rules(type_);
@@ -262,13 +255,10 @@ private:
 
 }  // namespace
 
-void clear_holds(const Route& route, View<Stop, 1> stops, View<const Trip, 1> trips) {
-    for (const Trip& trip : trips.first(route.trips)) stops[trip.first].hold = none;
+void clear_holds(const Tour& tour) {
+    for (const Trip& trip : tour.trips.first(tour.route.trips)) tour.stops[trip.first].hold = none;
 }
 
-bool settle(const ProblemData& data, Route& route, View<Stop, 1> stops, View<const Trip, 1> trips,
-            View<Sortie, 1> sorties) {
-    return Settling(data, route, stops, trips, sorties).run();
-}
+bool settle(const ProblemData& data, const Tour& tour) { return Settling(data, tour).run(); }
 
 }  // namespace tandem

@@ -135,8 +135,7 @@ FlownCargo flown(const ProblemData& data, Int k, const Sortie& sortie, Int place
 
 // Write what leaves and comes aboard at each stop. In place; false if a drone may not fly.
 bool note_amounts(const ProblemData& data, const Fleet& fleet, Int slot, Int tier) {
-    const Route& route = fleet.route[slot];
-    const View<const Stop, 1> stops = fleet.stop[slot];
+    const auto [route, stops, trips, sorties] = tour_of(fleet, slot);
     const View<StopLoad, 1> stop_loads = fleet.stop_load[slot][tier];
     for (Int p = 0; p < route.length; ++p) {
         StopLoad& stop_load = stop_loads[p];
@@ -191,8 +190,7 @@ bool can_carry(const ProblemData& data, Int k, const Sortie& sortie, Int place, 
 }
 
 bool weigh(const ProblemData& data, const Fleet& fleet, Int slot) {
-    const Route& route = fleet.route[slot];
-    const View<Stop, 1> stops = fleet.stop[slot];
+    const auto [route, stops, trips, sorties] = tour_of(fleet, slot);
     const VehicleType& type = data.type[route.type];
     bool allowed = true;
     for (Int tier = 0; tier < tiers_aboard(fleet); ++tier) {

@@ -223,7 +223,6 @@ extern "C" int tandem_exchange_routes(const tandem_problem_data* data, tandem_se
                                       int64_t* done) {
     return guarded([&] {
         const ProblemData problem = data_of(*data);
-        Searcher& working = *search;
-        *done = Exchange(problem, working, *one, *other).run() ? 1 : 0;
+        *done = Exchange(problem, *search, *one, *other).run() ? 1 : 0;
     });
 }
