@@ -50,26 +50,20 @@ double share_of_stops(const VehicleType& type, const VehicleLog& log, bool idle)
 
 // The open vehicle of a rollout, and what its candidates have in common.
 struct Situation {
-    const Setting& setting;
-    const Unit& unit;
-    const Vehicle& vehicle;
-    const VehicleLog& log;
+    Duty duty;
     const Rate& rate;
-    View<const Price, 1> prices;
-    View<const Int, 2> distance;  // (node, node) mm driven
-    View<const Int, 2> flown;     // (node, node) mm
-    Int since;                    // when the trip begins
-    Int nearest;                  // shortest drive to a candidate
+    Int since;    // when the trip begins
+    Int nearest;  // shortest drive to a candidate
 };
 
 // Describe which share of the room a customer takes in one tier, both ways.
 void describe_amounts(const Situation& now, Int node, Int tier_number, ActionFeatures& feature) {
-    const Setting& setting = now.setting;
+    const auto& [setting, unit, vehicle, log, served] = now.duty;
     const Amount delivered = delivered_of(setting.amount, node, tier_number);
     const Amount picked = picked_of(setting.amount, node, tier_number);
     const Amount whole = capacity_in(setting.type, tier_number);
-    const Amount left = part_of(now.vehicle.load, tier_number);
-    const Amount aboard = part_of(now.vehicle.aboard, tier_number);
+    const Amount left = part_of(vehicle.load, tier_number);
+    const Amount aboard = part_of(vehicle.aboard, tier_number);
     for (std::size_t d = 0; d < whole.size(); ++d) {
         const Int most = std::max(Int{1}, whole[d]);
         raise(feature.load_share,
@@ -82,11 +76,11 @@ void describe_amounts(const Situation& now, Int node, Int tier_number, ActionFea
 
 // Describe which share of the load left, and of the capacity, a customer asks for.
 void describe_demand(const Situation& now, Int node, ActionFeatures& feature) {
-    const Setting& setting = now.setting;
+    const Setting& setting = now.duty.setting;
     const Amount demand = demand_of(setting.node[node]);
     for (std::size_t d = 0; d < demand.size(); ++d) {
         if (demand[d] <= 0) continue;
-        raise(feature.load_share, quotient(demand[d], now.vehicle.load[d]));
+        raise(feature.load_share, quotient(demand[d], now.duty.vehicle.load[d]));
         raise(feature.capacity_share, quotient(demand[d], setting.type.capacity[d]));
     }
     for (Int t = 0; t < num_tiers(setting.amount); ++t) describe_amounts(now, node, t, feature);
@@ -95,15 +89,16 @@ void describe_demand(const Situation& now, Int node, ActionFeatures& feature) {
 // Describe what serving a customer next means, by truck or drone alike.
 void describe_customer(const Situation& now, Int node, const Outlook& outlook,
                        ActionFeatures& feature) {
-    const auto& [setting, unit, vehicle, log, rate, prices, distance, flown, since, nearest] = now;
+    const auto& [setting, unit, vehicle, log, served] = now.duty;
     const Windows place = setting.node[node];
+    const Price& price = setting.price[node];
     const Int wait = outlook.start - outlook.arrival;
     const Int late = place.lateness(outlook.arrival);
     feature.waiting = to_float(ratio(wait, unit.time));
     double left = slack(place.closing(), outlook.arrival, unit.time);
     feature.window_slack = to_float(left);
     if (some_limited(setting.max_time_aboard)) {
-        const Int excess = excess_aboard(setting.max_time_aboard, node, since, outlook.start);
+        const Int excess = excess_aboard(setting.max_time_aboard, node, now.since, outlook.start);
         left = std::min(double(feature.window_slack), slack(0, excess, unit.time));
         feature.window_slack = to_float(left);
     }
@@ -112,9 +107,8 @@ void describe_customer(const Situation& now, Int node, const Outlook& outlook,
         left = std::min(double(feature.window_slack), slack(0, excess, unit.time));
         feature.window_slack = to_float(left);
     }
-    const double hourly =
-        double(late) * prices[node].lateness + double(wait) * prices[node].waiting;
-    const double once = once_late_cost(prices[node], place, outlook.arrival);
+    const double hourly = double(late) * price.lateness + double(wait) * price.waiting;
+    const double once = once_late_cost(price, place, outlook.arrival);
     feature.lateness = to_float(ratio(hourly / ms_per_hour + once, unit.cost));
     describe_demand(now, node, feature);
     feature.shift_slack = to_float(slack(usual_end(setting.type), outlook.end, unit.time));
@@ -142,16 +136,16 @@ void describe_leg(const Unit& unit, Int duration, Int distance, double km, doubl
 
 // Describe what a drive to a customer leaves of the trip, and its detour.
 void describe_drive(const Situation& now, Int node, ActionFeatures& feature) {
-    const auto& [setting, unit, vehicle, log, rate, prices, distance, flown, since, nearest] = now;
+    const auto& [setting, unit, vehicle, log, served] = now.duty;
     const VehicleType& type = setting.type;
     const Int here = vehicle.node, home = type.ends_at;
     const Int way = setting.drive(here, node), way_home = setting.drive(node, home);
-    const Int used = vehicle.distance + distance(here, node) + distance(node, home);
+    const Int used = vehicle.distance + setting.ways(here, node) + setting.ways(node, home);
     feature.distance_slack =
-        to_float(slack(longest_trip(type), used, double(distance(home, node))));
+        to_float(slack(longest_trip(type), used, double(setting.ways(home, node))));
     const double detour = double(way + way_home - setting.drive(here, home)) / unit.time;
     feature.detour = to_float(std::max(std::min(detour, furthest), -furthest));
-    feature.excess = to_float(ratio(way - nearest, unit.near));
+    feature.excess = to_float(ratio(way - now.nearest, unit.near));
     const Int stops = stops_left(type, log, vehicle.idle != 0);
     if (stops >= unlimited) return;
     feature.load_share = to_float(1.0 / double(std::max(Int{1}, stops)));
@@ -160,21 +154,22 @@ void describe_drive(const Situation& now, Int node, ActionFeatures& feature) {
 
 // Describe the flight to a customer, as if the drone came back here.
 void describe_flight(const Situation& now, Int node, ActionFeatures& feature) {
-    const Int here = now.vehicle.node;
-    const Int there = now.setting.fly(here, node);
-    const Int back = std::min(now.setting.fly_home(node, here), 10 * there);
-    describe_leg(now.unit, there, 2 * now.flown(here, node), now.rate.drone_distance,
-                 2 * now.rate.drone_time, feature);
-    feature.endurance_share = to_float(share(there + back, longest_flight(now.setting.type)));
+    const auto& [setting, unit, vehicle, log, served] = now.duty;
+    const Int here = vehicle.node;
+    const Int there = setting.fly(here, node);
+    const Int back = std::min(setting.fly_home(node, here), 10 * there);
+    const Int flown = setting.distances(setting.type.drone_travel, here, node);
+    describe_leg(unit, there, 2 * flown, now.rate.drone_distance, 2 * now.rate.drone_time, feature);
+    feature.endurance_share = to_float(share(there + back, longest_flight(setting.type)));
 }
 
 // Describe returning to the depot.
 void describe_return(const Situation& now, ActionFeatures& feature) {
-    const VehicleType& type = now.setting.type;
+    const VehicleType& type = now.duty.setting.type;
+    const Int left = type.max_trips - now.duty.log.count.trips;
     feature.load_share =
-        to_float(quotient(room(type, now.vehicle), std::max(Int{1}, type.capacity[0])));
-    feature.capacity_share =
-        to_float(quotient(std::min(type.max_trips - now.log.count.trips, most_trips), most_trips));
+        to_float(quotient(room(type, now.duty.vehicle), std::max(Int{1}, type.capacity[0])));
+    feature.capacity_share = to_float(quotient(std::min(left, most_trips), most_trips));
 }
 
 // Describe opening a vehicle of a type of which so many are used already.
@@ -230,16 +225,6 @@ double closed_reserve(const Instance& instance, const State& state, Int r) {
     return reserve;
 }
 
-// The open vehicle as rules see it that few state.
-Duty duty_of(const State& state, Int r, const Setting& setting, const Unit& unit,
-             const VehicleLog& log) {
-    return {.setting = setting,
-            .unit = unit,
-            .vehicle = state.vehicle[r],
-            .log = log,
-            .served = state.served[r]};
-}
-
 // Describe the open vehicle, when all vehicles not open yet can carry so much.
 void describe_vehicle(const Scene& scene, const State& state, Int r, double unserved,
                       double reserve, VehicleFeatures& seen) {
@@ -279,7 +264,7 @@ void describe_vehicle(const Scene& scene, const State& state, Int r, double unse
         const double left = slack(longest_travel(type), vehicle.legs.duration, unit.time);
         seen.working_slack = to_float(std::min(double(seen.working_slack), left));
     }
-    describe_duty(duty_of(state, r, setting, unit, log), clock, seen);
+    describe_duty({setting, unit, vehicle, log, state.served[r]}, clock, seen);
 }
 
 // Describe the open vehicle and what is left to do.
@@ -324,7 +309,7 @@ void describe_opens(const Scene& scene, const State& state, Int r, double unserv
         if (state.vehicle[r].type == no_vehicle) continue;
         const Setting setting(instance, b, state.vehicle[r].type);
         const VehicleLog log = log_of(state.log, r);
-        describe_parting(duty_of(state, r, setting, unit, log), true, feature);
+        describe_parting({setting, unit, state.vehicle[r], log, state.served[r]}, true, feature);
     }
 }
 
@@ -337,22 +322,14 @@ void describe_moves(const Instance& instance, const Scales& scale, const State& 
     const VehicleLog log = log_of(state.log, r);
     const Unit unit = unit_of(scale, b);
     const View<const Int, 1> actions = seen.action.first(seen.count);
-    const View<const bool, 1> served = state.served[r];
     const View<const Int, 2> neighbour = instance.neighbour[b];
     const Int here = vehicle.node, load = room(setting.type, vehicle);
     const Situation now{
-        .setting = setting,
-        .unit = unit,
-        .vehicle = vehicle,
-        .log = log,
+        .duty = {setting, unit, vehicle, log, state.served[r]},
         .rate = setting.rate[vehicle.type],
-        .prices = setting.price,
-        .distance = instance.distance[b][setting.type.travel],
-        .flown = instance.distance[b][setting.type.drone_travel],
         .since = vehicle.idle != 0 ? vehicle.next_start : log.trip[log.count.trips - 1].start,
         .nearest = nearest_drive(setting.drive[here], actions),
     };
-    const Duty duty = duty_of(state, r, setting, unit, log);
     for (Int index = 0; index < actions.size(); ++index) {
         const ActionKind kind = kind_of(actions[index]);
         const Int node = target_of(actions[index]);
@@ -361,12 +338,12 @@ void describe_moves(const Instance& instance, const Scales& scale, const State& 
         if (kind == ActionKind::launch) {
             describe_flight(now, node, feature);
         } else {
-            describe_leg(unit, setting.drive(here, node), now.distance(here, node),
+            describe_leg(unit, setting.drive(here, node), setting.ways(here, node),
                          now.rate.distance, now.rate.time, feature);
         }
         if (kind == ActionKind::end_trip) {
             describe_return(now, feature);
-            describe_parting(duty, log.count.trips >= setting.type.max_trips, feature);
+            describe_parting(now.duty, log.count.trips >= setting.type.max_trips, feature);
             continue;
         }
         feature.way_home = to_float(
@@ -375,8 +352,8 @@ void describe_moves(const Instance& instance, const Scales& scale, const State& 
         const Outlook& outlook = seen.outlook[index];
         const Candidate candidate{here, node, kind == ActionKind::launch, load, outlook};
         describe_customer(now, node, outlook, feature);
-        describe_neighbours(setting, neighbour[node], served, candidate, unit, feature);
-        describe_rarer(duty, candidate, feature);
+        describe_neighbours(setting, neighbour[node], now.duty.served, candidate, unit, feature);
+        describe_rarer(now.duty, candidate, feature);
     }
 }
 

@@ -125,7 +125,7 @@ void add_flights(const Setting& setting, const VehicleLog& log, Int row, Cost& c
 
 void add_cost(const Setting& setting, const VehicleLog& log, Int k, Cost& cost) {
     const Rate& rate = setting.rate[k];
-    const View<const Int, 2> legs = setting.distances[setting.type.travel];
+    const View<const Int, 2> legs = setting.ways;
     Int driven = 0;
     for (Int index = 1; index < log.count.stops; ++index) {
         const LoggedStop& stop = log.stop[index];

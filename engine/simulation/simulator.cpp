@@ -127,7 +127,7 @@ Int legal_services(const Rollout& rollout, View<Int, 1> actions, View<Outlook, 1
           may_take_off(instance, state, r, k, vehicle.node, trips))) {
         return 0;
     }
-    const View<const Int, 2> legs = instance.distance[b][setting.type.travel];
+    const View<const Int, 2> legs = setting.ways;
     const Int here = vehicle.node, home = setting.type.ends_at;
     const Int reach = longest_trip(setting.type) - vehicle.distance;
     const Int began = is_idle ? 0 : log.trip[trips - 1].start;

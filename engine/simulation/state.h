@@ -130,6 +130,7 @@ struct Setting : ProblemTables {
           between(limits_of(max_between, k)),
           durations(instance.duration[b]),
           distances(instance.distance[b]),
+          ways(distances[type.travel]),
           drive(durations[type.travel]),
           fly(durations[type.drone_travel]),
           fly_home(durations[type.home_travel]),
@@ -146,6 +147,7 @@ struct Setting : ProblemTables {
     View<const Int, 1> starts;          // (node,) when vehicles closed begin to serve, or `none`
     View<const Int, 3> durations;       // (travel, node, node) ms
     View<const Int, 3> distances;       // (travel, node, node) mm
+    View<const Int, 2> ways;            // (node, node) mm driven
     View<const Int, 2> drive;           // (node, node) ms
     View<const Int, 2> fly;             // (node, node) ms
     View<const Int, 2> fly_home;        // (node, node) ms, to where the truck is

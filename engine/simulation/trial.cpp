@@ -297,7 +297,7 @@ bool legal_by_trial(const Rollout& rollout, Int reload, Service service, Outlook
     const Int b = state.problem[r];
     OpenVehicle open = open_vehicle_of(instance, b, state, scratch);
     const auto& [setting, vehicle, log, drones] = open;
-    const View<const Int, 2> legs = instance.distance[b][setting.type.travel];
+    const View<const Int, 2> legs = setting.ways;
     const Int start = reload == no_reload ? vehicle.node : reload;
     TripProgress way = {reload == no_reload ? vehicle.distance : 0, vehicle.legs};
     if (reload != no_reload) way.legs = way.legs + leg_of(setting, vehicle.node, reload);

@@ -6,7 +6,7 @@
 #include "search/moves/halting.h"
 #include "search/moves/operations.h"
 #include "search/moves/rewrite.h"
-#include "search/route/rests.h"
+#include "search/route/pricing.h"
 
 namespace tandem {
 namespace {

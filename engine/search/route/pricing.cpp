@@ -91,6 +91,12 @@ Int spare_time(const ProblemData& data, const Tour& tour) {
                : idle_time(tour.route);
 }
 
+bool may_save_more(const ProblemData& data, const Route& route) {
+    const VehicleType& type = data.type[route.type];
+    return idle_time(route) > 0 || is_dearer(data.rate[route.type], work_of(type, route)) ||
+           any_rest(type, route);
+}
+
 LeastPrice least_cost(const ProblemData& data, const Fleet& fleet, Int slot) {
     const Tour tour = tour_of(fleet, slot);
     const auto& [route, stops, trips, sorties] = tour;

@@ -32,6 +32,10 @@ bool settle(const ProblemData& data, const Tour& tour);
 // Return how long a route could work longer at no cost.
 Int spare_time(const ProblemData& data, const Tour& tour);
 
+// Tell whether a timed route may work for less if fewer or others are served on it, by more than
+// the hours that they take.
+bool may_save_more(const ProblemData& data, const Route& route);
+
 // What a route costs at least, and how long its vehicle works then.
 struct LeastPrice {
     double cost;

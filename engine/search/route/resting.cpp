@@ -251,12 +251,6 @@ bool any_rest(const VehicleType& type, const Route& route) {
     return has_driving_rules(type) && route.driving == far;
 }
 
-bool may_save_more(const ProblemData& data, const Route& route) {
-    const VehicleType& type = data.type[route.type];
-    return idle_time(route) > 0 || is_dearer(data.rate[route.type], work_of(type, route)) ||
-           any_rest(type, route);
-}
-
 bool drive_by_rules(const ProblemData& data, const Tour& tour) {
     const auto& [route, stops, trips, sorties] = tour;
     const VehicleType& type = data.type[route.type];

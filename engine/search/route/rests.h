@@ -318,10 +318,6 @@ bool rest_late(const RestRoute& route, BestRests& best, TakenRests& taken);
 // Tell whether a rest is taken on a timed route.
 bool any_rest(const VehicleType& type, const Route& route);
 
-// Tell whether a timed route may work for less if fewer or others are served on it, by more than
-// the hours that they take.
-bool may_save_more(const ProblemData& data, const Route& route);
-
 // Write times as soon as possible, with breaks, and the rests that rules ask for, placed so that
 // the route ends as soon as possible. In place; false if a rule is broken.
 //
