@@ -6,7 +6,6 @@
 #include "search/moves/halting.h"
 #include "search/moves/operations.h"
 #include "search/moves/rewrite.h"
-#include "search/route/pricing.h"
 
 namespace tandem {
 namespace {

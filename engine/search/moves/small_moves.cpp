@@ -4,7 +4,6 @@
 
 #include "search/moves/operations.h"
 #include "search/moves/rewrite.h"
-#include "search/route/pricing.h"
 
 namespace tandem {
 namespace {
