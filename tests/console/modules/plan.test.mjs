@@ -9,7 +9,7 @@ import { geoJson, gpx, stopsCsv } from '../../../app/console/static/js/core/expo
 import { flownLines } from '../../../app/console/static/js/core/flights.js';
 import { contains, indexPlan, keysWithin, spanOf } from '../../../app/console/static/js/core/plan.js';
 import { playback } from '../../../app/console/static/js/core/playback.js';
-import { ACTIVITIES, rowWindows, timelineRows } from '../../../app/console/static/js/core/timeline.js';
+import { ACTIVITIES, closedOf, rowWindows, timelineRows } from '../../../app/console/static/js/core/timeline.js';
 import { eventReader } from '../../../app/console/static/js/core/sse.js';
 
 const REQUEST = {
@@ -290,4 +290,15 @@ test('a stop at a launch site is told as one, with its own window', () => {
   assert.equal(describe(request, told, pier.key).title, 'Launch site pier');
   const { features } = geoJson(told, flownLines(request));
   assert.ok(features.some(({ properties }) => properties.kind === 'launch_site'));
+});
+
+test('a row is dark while its vehicle does not work or its depot is closed', () => {
+  const depots = [{ id: 'hub', time_window: { earliest: 100, latest: null } },
+    { id: 'yard', time_window: { earliest: 0, latest: 800 } }];
+  const closed = (type) => closedOf({ type }, { depots }, [0, 1000]);
+  assert.deepEqual(closed({ shift: null }), [[0, 100]]);
+  assert.deepEqual(closed({ depot: 'yard', shift: { earliest: 300, latest: 900 } }),
+    [[0, 300], [900, 1000], [800, 1000]]);
+  assert.deepEqual(closed({ depot: 'yard', shift: { earliest: 2000, latest: 3000 } }),
+    [[0, 1000], [800, 1000]]);
 });

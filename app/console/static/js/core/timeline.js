@@ -40,10 +40,18 @@ export function idleRows({ request, vehicles }) {
       })));
 }
 
-/** Return when the vehicle of a row works: `[earliest, latest]`, ends that are open infinite. */
-export function shiftOf({ type, vehicle }) {
-  const { earliest, latest } = (type ?? vehicle.type)?.shift ?? {};
-  return [earliest ?? -Infinity, latest ?? Infinity];
+/**
+ * Return when the vehicle of a row doesn't work, or its depot is closed: `[from, until]` each.
+ *
+ * @param range what is seen
+ */
+export function closedOf({ type, vehicle }, { depots }, [first, last]) {
+  const kind = type ?? vehicle.type;
+  const home = depots.find(({ id }) => id === kind?.depot) ?? depots[0];
+  const closed = [kind?.shift, home?.time_window].flatMap((open) => [
+    [first, Math.min(open?.earliest ?? first, last)],
+    [Math.max(open?.latest ?? last, first), last]]);
+  return closed.filter(([from, until]) => until > from);
 }
 
 function vehicleBars(vehicle) {

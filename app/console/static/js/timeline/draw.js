@@ -4,7 +4,7 @@ import { clock, firstHour } from '../core/format.js';
 import { contains, partsOf } from '../core/plan.js';
 import { vehicleColour } from '../core/palette.js';
 import { standingIn } from '../core/replanning.js';
-import { rowWindows, shiftOf, tickStep } from '../core/timeline.js';
+import { closedOf, rowWindows, tickStep } from '../core/timeline.js';
 
 export const AXIS = 20;
 const HEIGHTS = { vehicle: 24, drone: 16, idle: 24 };
@@ -128,7 +128,7 @@ function drawRow(context, row, scale, view) {
   context.beginPath();
   context.rect(gutter, row.top, width - gutter, row.height);
   context.clip();
-  drawShift(context, row, scale, view);
+  drawClosed(context, row, scale, view);
   for (const mark of row.windows) drawWindow(context, row, mark, scale, view);
   for (const bar of row.bars) drawBar(context, row, bar, scale, view);
   context.restore();
@@ -143,14 +143,13 @@ function drawRow(context, row, scale, view) {
   context.globalAlpha = 1;
 }
 
-/** Darken when the vehicle of a row doesn't work. */
-function drawShift(context, row, scale, { range, width, colours }) {
-  const [from, until] = shiftOf(row).map((time) =>
-    scale.x(Math.min(Math.max(time, range[0]), range[1])));
-  const gutter = gutterOf(width);
+/** Darken when the vehicle of a row doesn't work, and when its depot is closed. */
+function drawClosed(context, row, scale, { index, range, width, colours }) {
   context.fillStyle = colours.closed;
-  if (from > scale.x(range[0])) context.fillRect(gutter, row.top, from - gutter, row.height);
-  if (until < scale.x(range[1])) context.fillRect(until, row.top, width - until, row.height);
+  for (const [from, until] of closedOf(row, index.request, range)) {
+    const end = until === range[1] ? width : scale.x(until);
+    context.fillRect(scale.x(from), row.top, end - scale.x(from), row.height);
+  }
 }
 
 function drawLabel(context, row, gutter, { colours, dark }) {
