@@ -95,7 +95,11 @@ def test_the_example_of_a_working_day_is_read_and_planned(page: Page) -> None:
     expect(shown.locator("#import-vehicles-taken")).to_have_text("taken: 3")
     expect(shown.locator("#import-capacity-taken")).to_have_text("")
     listed = shown.get_by_role("region", name="Vehicles of the file")
-    expect(listed.get_by_role("cell", name="bike")).to_be_visible()
+    expect(listed.get_by_role("cell", name="bike", exact=True)).to_be_visible()
+    listed.get_by_label("bike: How many").fill("many")
+    expect(shown.locator("#use-import")).to_be_disabled()
+    listed.get_by_label("bike: How many").fill("2")
+    listed.get_by_label("bike: Works").fill("8:30-17:00")
     lag = shown.get_by_label("Meaning of Least lag (min)")
     expect(lag.locator("option:checked")).to_have_text("Least time between the two of an order")
     with page.expect_download() as download:
@@ -105,4 +109,6 @@ def test_the_example_of_a_working_day_is_read_and_planned(page: Page) -> None:
     # How many in the console's second is the machine's; that all fit, the import's own test plans.
     planned(page, "of 11 served")
     assert state(page, "state.request.fairness.min_vehicles") == 2
+    bike, = [kind for kind in state(page, "state.request.fleet") if kind["id"] == "bike"]
+    assert (bike["count"], bike["shift"]) == (2, {"earliest": 30_600, "latest": 61_200})
     assert state(page, "state.tool") is None

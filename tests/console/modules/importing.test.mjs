@@ -3,6 +3,7 @@ import test from 'node:test';
 import {
   addressesIn,
   assumedOf,
+  corrected,
   byAddress,
   forNextFile,
   isMarked,
@@ -142,6 +143,22 @@ test('what is taken for a fleet has no more digits than it needs', () => {
     { id: 'van', count: 2, capacity: '1,012.5', shift: '8:00\u201317:00', breaks: '12:00\u201313:00' },
   ]);
   assert.deepEqual(listedFleet({ request, doubts: [] }), []);
+});
+
+test('listed vehicles are corrected, and what cannot be read is named', () => {
+  const request = { fleet: [{ id: 'van', count: 2, capacity: [10], shift: { earliest: 0 } },
+    { id: 'bike', count: 1, capacity: [1] }] };
+  const texts = { van: { count: ' 3', capacity: '12,5', shift: '7:30-16:00' }, gone: { count: 'x' } };
+  assert.deepEqual(corrected(request, texts), { wrong: [], request: { fleet: [
+    { id: 'van', count: 3, capacity: [12.5], shift: { earliest: 27_000, latest: 57_600 } },
+    request.fleet[1]] } });
+  const dated = { ...request, plan_start: '2026-06-01T00:00:00+02:00' };
+  assert.deepEqual(corrected(dated, { van: { shift: '7:30-' } }).request.fleet[0].shift,
+    { earliest: '7:30' });
+  assert.deepEqual(corrected(request, { van: { shift: '' } }).request.fleet[0].shift, {});
+  assert.deepEqual(corrected(request, { bike: { count: 'many', shift: 'early' } }).wrong,
+    ['bike count', 'bike shift']);
+  assert.deepEqual(corrected(null, {}), { request: null, wrong: [] });
 });
 
 test('a place is written as maps show it, or as x and y of a plane', () => {

@@ -6,8 +6,8 @@ import { withoutEnding } from './core/format.js';
 import { currencyOf } from './core/currencies.js';
 import { doubtsOfImport, withFound } from './core/places.js';
 import {
-  byAddress, forNextFile, placing, readFields, remember, rememberPlaces, signatureOf, unplacedIn,
-  withAnswer, withColumn, withoutUnplaced,
+  byAddress, corrected, forNextFile, placing, readFields, remember, rememberPlaces, signatureOf,
+  unplacedIn, withAnswer, withColumn, withoutUnplaced,
 } from './core/importing.js';
 import { plan } from './planning.js';
 import { store } from './store.js';
@@ -25,6 +25,7 @@ export async function beginImport(file) {
       mapping: {},
       texts: {},
       choices: {},
+      corrections: {},
       places: kept(KEPT_PLACES) ?? {},
       leavesUnplaced: false,
       placing: null,
@@ -50,6 +51,12 @@ export function type(name, text) {
   store.set(({ importing }) => ({
     importing: { ...importing, texts: { ...importing.texts, [name]: text } },
   }));
+}
+
+/** Correct a vehicle that the file lists. */
+export function correct(id, name, text) {
+  const { corrections } = store.get().importing;
+  note({ corrections: { ...corrections, [id]: { ...corrections[id], [name]: text } } });
 }
 
 /** Say what a column means. */
@@ -95,7 +102,7 @@ export function leaveImport() {
 
 /** Plan what was imported, in place of what was open. */
 export async function useImport() {
-  const { reply, texts, name, places, leavesUnplaced } = store.get().importing;
+  const { reply, texts, corrections, name, places, leavesUnplaced } = store.get().importing;
   const entry = { mapping: forNextFile(reply.mapping, reply.questions), texts };
   try {
     const known = remember(kept(KEPT) ?? [], signatureOf(reply), entry);
@@ -105,7 +112,8 @@ export async function useImport() {
     // A browser that keeps nothing asks again next time.
   }
   store.set({ importing: null });
-  const placed = withFound(reply.request, byAddress(places)).request;
+  const { request } = corrected(reply.request, corrections);
+  const placed = withFound(request, byAddress(places)).request;
   const others = { name: withoutEnding(name), doubts: doubtsOfImport(reply) };
   openRequest(leavesUnplaced ? withoutUnplaced(placed) : placed, others);
   await plan();

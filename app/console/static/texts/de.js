@@ -186,6 +186,7 @@ export default {
     moreFields: 'Mehr zu Fahrten, Kosten und Drohnen',
     taken: 'angenommen: {{taken}}',
     listed: 'Fahrzeuge der Datei',
+    correctOf: '{{vehicle}}: {{what}}',
     listedAs: {
       id: 'Fahrzeug',
       count: 'Wie viele',

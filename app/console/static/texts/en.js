@@ -173,6 +173,7 @@ export default {
     moreFields: 'More of trips, costs and drones',
     taken: 'taken: {{taken}}',
     listed: 'Vehicles of the file',
+    correctOf: '{{vehicle}}: {{what}}',
     listedAs: {
       id: 'Vehicle',
       count: 'How many',

@@ -1,7 +1,7 @@
 /** What the console knows of imports: corrections, what is stated beside, earlier mappings. */
 
 import { t } from '../texts.js';
-import { clock, number, parseNumber } from './format.js';
+import { clock, number, parseHours, parseNumber } from './format.js';
 import { soughtIn } from './places.js';
 
 const MOST_REMEMBERED = 30;
@@ -131,6 +131,36 @@ export function listedFleet({ request, doubts }) {
     shift: timeWindow(shift),
     breaks: breaks.map((pause) => timeWindow(pause.start)).join(', '),
   }));
+}
+
+const CORRECTED = { count: whole, capacity: numbers, shift: shiftIn };
+
+/** Fields of listed vehicles that can be corrected. */
+export const CORRECTABLE = Object.keys(CORRECTED);
+
+/**
+ * Return a request with listed vehicles as they were corrected, and what of that can't be read.
+ *
+ * @param texts by id of the vehicle and field
+ */
+export function corrected(request, texts) {
+  const wrong = [];
+  const fleet = request?.fleet.map((kind) => {
+    const read = Object.entries(texts[kind.id] ?? {})
+      .map(([name, value]) => [name, CORRECTED[name](value.trim(), request)]);
+    wrong.push(...read.filter(([, value]) => value === null).map(([name]) => `${kind.id} ${name}`));
+    return { ...kind, ...Object.fromEntries(read.filter(([, value]) => value !== null)) };
+  });
+  return { request: request && { ...request, fleet }, wrong };
+}
+
+/** Return a shift such as `8:00-17:00`, either end of which may lack; null: it can't be read. */
+function shiftIn(value, { plan_start: day }) {
+  const [, ...ends] = /^(\d\d?:\d\d)?\s*[-\u2013]\s*(\d\d?:\d\d)?$/.exec(value) ?? [];
+  const stated = ['earliest', 'latest'].map((end, at) => [end, ends[at]]).filter(([, at]) => at);
+  if (value && !stated.length) return null;
+  // Where no day is known, times count from midnight.
+  return Object.fromEntries(stated.map(([end, at]) => [end, day ? at : parseHours(at)]));
 }
 
 /** Return a mapping in which a column means what the user says, whatever was answered before. */

@@ -1,7 +1,7 @@
 /** What a sheet is taken for, cell by cell, before it is planned; each guess can be corrected. */
 
 import { grantedInWords } from '../core/granted.js';
-import { readFields, unplacedIn } from '../core/importing.js';
+import { corrected, readFields, unplacedIn } from '../core/importing.js';
 import { change, leaveImport, useImport } from '../importing.js';
 import { html } from '../libraries.js';
 import { useStore } from '../store.js';
@@ -51,8 +51,9 @@ function Found({ importing }) {
   </div>`;
 }
 
-function ready({ reply, busy, failure, texts, places, leavesUnplaced }, finds) {
-  const isRead = reply.request !== null && !busy && !failure && !readFields(texts).wrong.length;
+function ready({ reply, busy, failure, texts, corrections, places, leavesUnplaced }, finds) {
+  const isRead = reply.request !== null && !busy && !failure && !readFields(texts).wrong.length
+    && !corrected(reply.request, corrections).wrong.length;
   return isRead && (finds || leavesUnplaced || !unplacedIn(reply.request, places).length);
 }
 
