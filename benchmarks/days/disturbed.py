@@ -233,10 +233,10 @@ class Dispatcher:
         self._plans = PlanService(load_planner(settings.weights_dir, settings.policies,
                                                lambda: None), bounds=bounds)
         self._store = DayStore(engine)
-        self._days = DayService(self._store, DispatchStore(engine), settings, bounds,
-                                settings.policies)
         self._runner = DayRunner(engine, lambda body, stop: self.plan(body), settings, NO_ROADS,
                                  lambda: True, lambda body: NO_SLOTS, lambda *_: None)
+        self._days = DayService(self._store, DispatchStore(engine), settings, bounds,
+                                settings.policies, self._runner.memory)
         self._runner.start()
 
     def plan(self, body: bytes) -> bytes:

@@ -1,7 +1,8 @@
 """A day's events -> how it stands."""
 
-from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass, field
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from copy import copy
+from dataclasses import dataclass, field, fields
 from typing import Any, NamedTuple
 
 from app.records.days.rows import Begun, LoggedEvent
@@ -64,6 +65,11 @@ class ToldDay:
     at_risk: dict[str, Data] = field(default_factory=dict)  # what was told of orders
     pace: Pace = NO_PACE
     plan_start: int = 0  # milliseconds since 1970
+    steps: dict[str, list[EventRow]] = field(default_factory=dict)
+    """What was told of steps, by vehicle, in the order in which it came."""
+    last: dict[bool, tuple[int, int]] = field(default_factory=dict)
+    """Time and number of the last event that clients told, and of the service's own: what these
+    say is told apart, so which of both came first doesn't count."""
 
     @property
     def out(self) -> list[str]:
@@ -82,22 +88,41 @@ def fold(begun: Begun, events: Iterable[LoggedEvent], plan_start: int) -> ToldDa
 
     What was told late is put where it belongs: events count in the order of their times.
     """
+    clock = begun.terms.clock
     told = ToldDay({each["id"]: each for each in begun.problem.get("customers", ())},
                 {each["id"]: each for each in begun.problem.get("shipments", ())},
-                plan_start=plan_start)
-    listed = list(events)
-    for event in sorted(listed, key=lambda event: (event.time, event.number)):
-        _take(told, event)
-    if begun.terms.clock is not None:
-        told.clock = max([round(plan_start + 1000 * begun.terms.clock),
-                          *(event.time for event in listed if event.kind in CLIENTS)])
-    steps: dict[str, list[EventRow]] = {}
-    for event in listed:
-        if event.vehicle is not None and event.step is not None and event.outcome is not None:
-            steps.setdefault(event.vehicle, []).append(EventRow(
-                event.id, event.step, event.outcome, event.time, event.reason, event.number))
-    told.standings = {vehicle: standing_of(rows, plan_start) for vehicle, rows in steps.items()}
+                plan_start=plan_start, clock=None if clock is None else round(
+                    plan_start + 1000 * clock))
+    _take_all(told, list(events))
     return told
+
+
+def fold_on(told: ToldDay, events: Sequence[LoggedEvent]) -> ToldDay | None:
+    """Return how a day stands with more events; None: one belongs before others that it has."""
+    if any((event.time, event.number) < told.last.get(event.kind in CLIENTS, (0, 0))
+           for event in events):
+        return None
+    parts = {each.name: copy(getattr(told, each.name)) for each in fields(told)}
+    further = ToldDay(**parts | {"steps": {name: [*rows] for name, rows in told.steps.items()}})
+    _take_all(further, events)
+    return further
+
+
+def _take_all(told: ToldDay, events: Sequence[LoggedEvent]) -> None:
+    """Have events count, listed in the order in which they came. In place."""
+    for event in sorted(events, key=lambda event: (event.time, event.number)):
+        _take(told, event)
+        told.last[event.kind in CLIENTS] = event.time, event.number
+    moved = set[str]()
+    for event in events:
+        if told.clock is not None and event.kind in CLIENTS:
+            told.clock = max(told.clock, event.time)
+        if event.vehicle is not None and event.step is not None and event.outcome is not None:
+            moved.add(event.vehicle)
+            told.steps.setdefault(event.vehicle, []).append(EventRow(
+                event.id, event.step, event.outcome, event.time, event.reason, event.number))
+    for vehicle in moved:
+        told.standings[vehicle] = standing_of(told.steps[vehicle], told.plan_start)
 
 
 def _take(told: ToldDay, event: LoggedEvent) -> None:

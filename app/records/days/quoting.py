@@ -11,7 +11,8 @@ from itsdangerous import BadData, URLSafeTimedSerializer
 from pydantic_core import from_json, to_json
 
 from app.records.days.errors import DayOverError, NoDayPlanError, QuoteLapsedError
-from app.records.days.fold import Data, fold
+from app.records.days.fold import Data
+from app.records.days.memory import DayMemory
 from app.records.days.planning import asked
 from app.records.days.rows import Begun, DayRow
 from app.records.days.runner import now_of
@@ -28,7 +29,8 @@ LAPSES = 120
 """Seconds in which a quote may be accepted."""
 
 
-def body_of(days: DayStore, dispatches: DispatchStore, row: DayRow, body: bytes) -> bytes:
+def body_of(days: DayStore, dispatches: DispatchStore, row: DayRow, body: bytes,
+            memory: DayMemory) -> bytes:
     """Return the request of `POST /quote` that asks what a body does of a day as it stands now.
 
     Raises
@@ -43,7 +45,7 @@ def body_of(days: DayStore, dispatches: DispatchStore, row: DayRow, body: bytes)
     content = days.plan(row.id)
     if content is None:
         raise NoDayPlanError
-    told = fold(begun, days.log(row.id), row.plan_start)
+    told = memory.stood(days, row, begun).told
     wanted = asked(begun, told, parse_plan(content), dispatches.steps_by_vehicle(row.id),
                    max(0.0, row.seconds(now_of(told))), row.planned)
     return to_json({**dict(read_json(body)), "problem": wanted, "plan": wanted["replan"]["plan"]})

@@ -15,6 +15,7 @@ from app.plans import answers
 from app.plans.routes import Plans
 from app.records.days.events import DayEventsRequest
 from app.records.days.fold import KINDS
+from app.records.days.memory import DayMemory
 from app.records.days.rows import DayRow
 from app.records.days.runner import DayRunner
 from app.records.days.schemas import (
@@ -187,8 +188,10 @@ async def _events(database: PreparedDatabase, row: DayRow,
 
 def _service(request: Request, engine: Engine) -> DayService:
     settings = request.app.state.settings
+    runner: DayRunner | None = request.app.state.days
     return DayService(DayStore(engine), DispatchStore(engine), settings, Bounds.of_plans(settings),
-                      request.app.state.plans.policies)
+                      request.app.state.plans.policies,
+                      DayMemory() if runner is None else runner.memory)
 
 
 def _hurry(request: Request) -> None:

@@ -20,7 +20,8 @@ from app.maps.roads.roads import Roads
 from app.plans.flights.answering import flights_by_vehicle
 from app.records.clock import now_ms
 from app.records.days.departures import Departures
-from app.records.days.fold import ToldDay, fold
+from app.records.days.fold import ToldDay
+from app.records.days.memory import DayMemory
 from app.records.days.news import names_of, news_of
 from app.records.days.planning import asked, too_late
 from app.records.days.remedies import Quote, remedy_of
@@ -106,6 +107,7 @@ class DayRunner:
         self._told = threading.Event()
         self._by = str(uuid.uuid4())
         self._beside: dict[str, float] = {}  # seconds that a day's last plan took unsearched
+        self.memory = DayMemory()
         self._departures = Departures(self._store)
         self._due_at = 0.0  # when it is looked for them, on `time.monotonic`
         self._deaths = Counter[tuple[str, int]]()  # by day and number of the last event
@@ -184,8 +186,7 @@ class DayRunner:
         began = time.monotonic()
         begun = self._store.begun(day.id)
         until = time.monotonic() + MENDING * begun.terms.plan_within
-        log = [event for event in self._store.log(day.id) if event.number <= day.revision]
-        told = fold(begun, log, day.plan_start)
+        log, told = self.memory.stood(self._store, day, begun)
         content = self._store.plan(day.id)
         before = None if content is None else parse_plan(content)
         if before and not day.failure and are_in_time(begun, told, before, log, day.planned):

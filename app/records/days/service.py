@@ -18,7 +18,8 @@ from app.records.days.errors import (
 from app.records.days.events import (
     AnyEvent, DayEventsRequest, DroneFlown, DroneLost, OrderCancelled, OrderPinned, OrderStated,
 )
-from app.records.days.fold import ToldDay, fold, visits
+from app.records.days.fold import ToldDay, visits
+from app.records.days.memory import DayMemory
 from app.records.days.news import served_orders
 from app.records.days.quoting import accepted, body_of, with_token
 from app.records.days.rows import Begun, DayRow, DayTerms, LoggedEvent
@@ -64,15 +65,18 @@ class DayService:
         How long, and how many.
     bounds, policies
         Those of `POST /plan`.
+    memory
+        How days stood last.
     """
 
     def __init__(self, store: DayStore, dispatches: DispatchStore, settings: Settings,
-                 bounds: Bounds, policies: Collection[str]) -> None:
+                 bounds: Bounds, policies: Collection[str], memory: DayMemory) -> None:
         self._store = store
         self._dispatches = dispatches
         self._settings = settings
         self._bounds = bounds
         self._policies = policies
+        self._memory = memory
 
     def begin(self, body: bytes, owner: str, client: str) -> DayRow:
         """Keep a day that begins, or find the one that the same request began. In place.
@@ -122,9 +126,8 @@ class DayService:
         day = DayOfBody(to_json(begun.problem))
         events = read_events(body, day)
         raw = read_json(body)
-        log = self._store.log(row.id)
+        log, told = self._memory.stood(self._store, row, begun)
         there = {event.id for event in log if event.origin == BY_CLIENT}
-        told = fold(begun, log, row.plan_start)
         new = [(number, event) for number, event in enumerate(events)
                if event.event_id not in there]
         self._require_known(begun.problem, told, new, raw)
@@ -142,7 +145,7 @@ class DayService:
 
     def asked_of(self, name: str, owner: str, body: bytes) -> bytes:
         """Return the request of `POST /quote` about a day as it stands; raises as `body_of`."""
-        return body_of(self._store, self._dispatches, self.find(name, owner), body)
+        return body_of(self._store, self._dispatches, self.find(name, owner), body, self._memory)
 
     def quoted(self, name: str, owner: str, body: bytes, reply: bytes) -> dict[str, Any]:
         """Return the reply to a quote with a token; raises as `find` does."""
@@ -158,7 +161,7 @@ class DayService:
         """
         row = self.find(name, owner)
         begun = self._store.begun(row.id)
-        told = fold(begun, self._store.log(row.id), row.plan_start)
+        told = self._memory.stood(self._store, row, begun).told
         event = accepted(begun, token, read_model(body, AcceptRequest).slot,
                          max(0.0, row.seconds(now_of(told))))
         return self.tell(name, owner, to_json([event]))
@@ -192,7 +195,7 @@ class DayService:
         """Return a link for each order, `base` being the service's address; raises as `find`."""
         row = self.find(name, owner)
         begun = self._store.begun(row.id)
-        told = fold(begun, self._store.log(row.id), row.plan_start)
+        told = self._memory.stood(self._store, row, begun).told
         content = self._store.plan(row.id)
         plan = PlanInput(routes=()) if content is None else parse_plan(content)
         return CustomerLinksReply(links=links_of(base, begun, row, told, plan))
@@ -201,7 +204,7 @@ class DayService:
         """Return a day's problem with the orders that were told; raises as `find` does."""
         row = self.find(name, owner)
         begun = self._store.begun(row.id)
-        told = fold(begun, self._store.log(row.id), row.plan_start)
+        told = self._memory.stood(self._store, row, begun).told
         content = self._store.plan(row.id)
         planned = {order.partition("/")[0] for order, _, _ in visits(
             PlanInput(routes=()) if content is None else parse_plan(content))}
@@ -215,7 +218,7 @@ class DayService:
     def read(self, name: str, owner: str) -> DayReply:
         """Return how a day stands; raises as `find` does."""
         row = self.find(name, owner)
-        told = fold(self._store.begun(row.id), self._store.log(row.id), row.plan_start)
+        told = self._memory.stood(self._store, row, self._store.begun(row.id)).told
         content = self._store.plan(row.id)
         plan = PlanInput(routes=()) if content is None else parse_plan(content)
         return DayReply(
