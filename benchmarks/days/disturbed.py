@@ -53,11 +53,12 @@ TRAVEL_SPREAD, SERVICE_SPREAD = 0.25, 0.4
 CANCELLED, BROKEN = 0.05, 0.5
 """Share of orders that are cancelled, and of days on which a van breaks down."""
 
-STEP = 120.0
+STEP = 300.0
 """Seconds of a day between two looks at what has happened."""
 
-WITHIN = 0.6
-"""Seconds that a day's plan may take: of them a part is searched."""
+TURNS, WITHIN = 600, 60.0
+"""Turns that are searched for a plan, and seconds that no plan takes: what else a machine does
+counts for nothing."""
 
 FEW_CHANGES: Data = {"change_costs": {"vehicle": 4, "position": 1, "promise_per_minute": 0.02}}
 BEHIND: Data = {"change_limits": {"new_orders": "behind"}}
@@ -270,8 +271,9 @@ class Dispatcher:
 def lived(dispatcher: Dispatcher, day: Drawn, options: Data, every: float) -> Data:
     """Live a day on which it is planned anew so often, and return what came of it."""
     known = [each for each in day.orders if day.placed[each["id"]] == 0.0]
-    name = dispatcher.begin(day.problem(known, options=options, unassigned_cost=1000.0),
-                            BEGIN - 60)
+    problem = day.problem(known, options={**options, "search_iterations": TURNS},
+                          unassigned_cost=1000.0)
+    name = dispatcher.begin(problem, BEGIN - 60)
     plan = dispatcher.planned(name)
     world = World(day, {f"van-{number}": Van(f"van-{number}")
                         for number in range(1, day.vans + 1)})
@@ -306,7 +308,7 @@ def _ahead(plan: Data, world: World) -> dict[str, list[str]]:
             for route in plan["routes"] if not world.vans[route["vehicle"]].is_broken}
 
 
-def hindsight(dispatcher: Dispatcher, day: Drawn, seconds: float) -> Data:
+def hindsight(dispatcher: Dispatcher, day: Drawn, turns: int) -> Data:
     """Return what comes of a day whose plan knows all that comes, and how long it lasts."""
     wanted = [each for each in day.orders if each["id"] not in day.cancelled]
     places = [("hub", HUB), *((each["id"], each["location"]) for each in wanted)]
@@ -318,7 +320,8 @@ def hindsight(dispatcher: Dispatcher, day: Drawn, seconds: float) -> Data:
                   "service_duration": SERVICE * day.lasts("service", each["id"])}
                  for index, each in enumerate(wanted, 1)]
     problem = day.problem(customers, matrices={"truck": {"durations": lasting, "distances": far}},
-                          unassigned_cost=1000.0, options={"time_limit": seconds})
+                          unassigned_cost=1000.0, options={
+                              "time_limit": WITHIN, "search_iterations": turns})
     problem["depots"][0]["location_index"] = 0
     if day.broken is not None:
         kind = problem["fleet"][0]
@@ -337,7 +340,7 @@ def main() -> None:
     parser.add_argument("--seeds", type=int, default=20)
     parser.add_argument("--orders", type=int, default=40)
     parser.add_argument("--vans", type=int, default=5)
-    parser.add_argument("--hindsight", type=float, default=3.0, help="seconds of its search")
+    parser.add_argument("--hindsight", type=int, default=20_000, help="turns of its search")
     options = parser.parse_args()
     found: dict[str, list[Data]] = {}
     with tempfile.TemporaryDirectory() as folder:

@@ -108,6 +108,8 @@ class DayRunner:
         self._by = str(uuid.uuid4())
         self._beside: dict[str, float] = {}  # seconds that a day's last plan took unsearched
         self.memory = DayMemory()
+        self._making = set[str]()  # days that are being planned
+        self._renews_at = 0.0  # on `time.monotonic`
         self._departures = Departures(self._store)
         self._due_at = 0.0  # when it is looked for them, on `time.monotonic`
         self._deaths = Counter[tuple[str, int]]()  # by day and number of the last event
@@ -133,8 +135,11 @@ class DayRunner:
 
     def _look(self) -> None:
         while not self._stopping.is_set():
-            self._free.acquire()
+            if not self._free.acquire(timeout=LOOK):
+                self._renew()
+                continue
             try:
+                self._renew()
                 day = self._claimed() if self._is_prepared() else None
             except SQLAlchemyError as error:
                 logger.warning("days can't be planned: %s", type(error).__name__)
@@ -145,14 +150,28 @@ class DayRunner:
                 self._told.wait(LOOK)
                 self._told.clear()
             else:
+                self._making.add(day.id)
                 self._pool.submit(self._planned, day)
+
+    def _renew(self) -> None:
+        """Keep others from the days that are being planned. In place."""
+        if time.monotonic() < self._renews_at:
+            return
+        self._renews_at = time.monotonic() + RENEWAL
+        for day in tuple(self._making):
+            try:
+                self._store.renew(day, self._by, LEASE)
+            except SQLAlchemyError as error:
+                logger.warning("a day can't be held: %s", type(error).__name__)
 
     def _claimed(self) -> DayRow | None:
         """Return a day to be planned; some are told the time first. In place."""
         if time.monotonic() >= self._due_at:
             self._due_at = time.monotonic() + DUE
             self._departures.tell(now_ms())
-        return self._store.claim(self._by, LEASE)
+        day = self._store.claim(self._by, LEASE)
+        # It may have been away from the database for longer than it held a day.
+        return None if day is None or day.id in self._making else day
 
     def _planned(self, day: DayRow) -> None:
         """Plan a day that is this process's. In place."""
@@ -169,6 +188,7 @@ class DayRunner:
             logger.exception("a day can't be planned")
             self._store.keep_plan(day, self._by, "The plan could not be made.")
         finally:
+            self._making.discard(day.id)
             self._free.release()
             self._told.set()
 
@@ -229,25 +249,12 @@ class DayRunner:
                            self._beside.get(day.id, 0.0))
             body = to_json(wanted)
             try:
-                return body, self._plan(body, self._renewing(day))
+                return body, self._plan(body, self._stopping.is_set)
             except InvalidRequestError as error:
                 more = too_late(error.errors, wanted, told) - kept
                 if not more:
                     raise
                 kept |= more
-
-    def _renewing(self, day: DayRow) -> Callable[[], bool]:
-        """Return what tells whether a plan is to end, and meanwhile keeps others from the day."""
-        renewed_at = time.monotonic()
-
-        def should_stop() -> bool:
-            nonlocal renewed_at
-            if time.monotonic() - renewed_at > RENEWAL:
-                renewed_at = time.monotonic()
-                self._store.renew(day.id, self._by, LEASE)
-            return self._stopping.is_set()
-
-        return should_stop
 
     def _with_end(self, day: DayRow, plan: PlanInput) -> DayRow:
         """Return a day that lasts until its plan is over."""

@@ -12,10 +12,13 @@ import uvicorn
 from app.cli.serving import IDLE_SECONDS
 from app.main import create_app
 from app.serving.children.errors import EndedUnexpectedlyError
+from app.records.days import news, runner
 from app.serving.settings import Settings
 from model.planner import PlanResult
 from model.problem import Problem
-from tests.app.records.days.living import begun, clock, order, plan_of, planned, served_by, standing
+from tests.app.records.days.living import (
+    begun, clock, order, plan_of, planned, served_by, standing, told,
+)
 from tests.app.conftest import SearchingPlanner, ready, serving
 from tests.app.records.jobs.served import Served
 from tests.conftest import eventually
@@ -110,3 +113,22 @@ def test_day_whose_process_dies_is_planned_again_some_times(
         assert (standing(client, day).failure is not None) == fails
         client.post(f"/days/{day}/events", json=[{"event_id": "f", "at": 2, **clock()}])
         assert "G" in served_by(plan_of(client, planned(client, day).id))
+
+
+def test_day_is_planned_once_however_long_that_takes(
+        tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(runner, "LEASE", 0.3)
+    monkeypatch.setattr(runner, "RENEWAL", 0.1)
+    plans = list[int]()
+
+    def slowly(number: int, *args: Any) -> Any:
+        plans.append(number)
+        threading.Event().wait(1.0)
+        return news.news_of(number, *args)
+
+    monkeypatch.setattr(runner, "news_of", slowly)
+    with serving(SearchingPlanner(), Settings(data_dir=tmp_path, role="api")) as client:
+        day = begun(ready(client))
+        told(client, day, clock(), at=1)
+        assert standing(client, day).plan_number == 2
+        assert plans == [1, 2]
