@@ -1,7 +1,7 @@
 import assert from 'node:assert/strict';
 import test from 'node:test';
 import {
-  addVehicles, changeWindows, giveWindows, removeCustomer, withoutDrones,
+  addVehicles, changeWindows, giveWindows, removeCustomers, withoutDrones,
 } from '../../../app/console/static/js/core/changes.js';
 import { planName, unlike } from '../../../app/console/static/js/core/naming.js';
 
@@ -37,7 +37,7 @@ test('plans are named by what changed', () => {
       "Anna's window 8:00\u201310:00"],
     [changeWindows(REQUEST, null), 'windows off'],
     [changeWindows(REQUEST, 30), 'windows soft'],
-    [removeCustomer(REQUEST, 'Ben'), 'without Ben'],
+    [removeCustomers(REQUEST, ['Ben']), 'without Ben'],
     [{ ...REQUEST, customers: [...REQUEST.customers, { id: 'Dora' }] }, 'Dora added'],
     [withFields(1, { demand: [4] }), 'Ben: demand 1 \u2192 4'],
     [withFields(1, { info: { phone: '1' } }), 'planned again'],
@@ -70,7 +70,7 @@ test('the first plan, an improved one and a replanned one are told', () => {
   assert.equal(named(REQUEST, true), 'improved');
   const later = { ...REQUEST, replan: { plan: {}, freeze_before: 36600 } };
   assert.equal(named(later), 'replanned at 10:10');
-  assert.equal(named(removeCustomer(later, 'Ben')), 'without Ben, replanned at 10:10');
+  assert.equal(named(removeCustomers(later, ['Ben'])), 'without Ben, replanned at 10:10');
 });
 
 test('no two plans have one name', () => {

@@ -113,9 +113,6 @@ export function customersWithin(request, [west, south, east, north]) {
     .map(({ id }) => id);
 }
 
-/** Remove a customer, pinned or not. */
-export const removeCustomer = (request, id) => removeCustomers(request, [id]);
-
 /** Remove customers, pinned or not. */
 export function removeCustomers(request, ids) {
   const gone = new Set(ids);
