@@ -21,8 +21,8 @@ void alone_costs(const ProblemData& data, Fleet& fleet, const View<double, 3>& a
 // Times the routes written; those that break a rule are left to be planned anew.
 void begin(const ProblemData& data, Searcher& searcher, Int num_routes);
 
-// What the truck's legs between customers cost on average. Where there are none, a share of the
-// whole cost; always above zero.
+// What the truck's legs between customers cost on average: by the last end, where that alone costs.
+// Where there are none, a share of the whole cost; always above zero.
 double leg_cost(const ProblemData& data, const Searcher& searcher);
 
 // Writes the times of a route whose trips begin as late as costs nothing. False if nobody can drive

@@ -12,6 +12,9 @@ namespace tandem {
 
 namespace {
 
+// Where ways cost less than this share of what a later end does, the end is all that counts.
+constexpr double next_to_nothing = 0.01;
+
 // Let a route be as it is given or, if its vehicle is charged in turn, without those trips that
 // can't be flown so. In place; false if nothing is left.
 bool refresh_by_trips(const ProblemData& data, const Fleet& fleet, Int slot) {
@@ -118,19 +121,24 @@ void begin(const ProblemData& data, Searcher& searcher, Int num_routes) {
 
 double leg_cost(const ProblemData& data, const Searcher& searcher) {
     const Fleet& now = searcher.now;
-    double cost = 0.0;
-    Int legs = 0;
+    double cost = 0.0, by_end = 0.0;
+    Int legs = 0, used = 0;
     for (Int slot = 0; slot < searcher.active.size(); ++slot) {
         const Rate& rate = data.rate[now.route[slot].type];
         const View<Stop, 1> stops = now.stop[slot];
+        used += now.route[slot].length > 0;
         for (Int p = 0; p < now.route[slot].length - 1; ++p) {
             if (stops[p].kind != customer_stop || stops[p + 1].kind != customer_stop) continue;
             cost += drive_cost(rate, stops[p].leg) + usual_work_cost(rate, stops[p].gap);
+            by_end += data.fairness.makespan * double(stops[p].gap);
             ++legs;
         }
     }
+    // Where all vehicles end alike, the last end is later by each one's share.
+    by_end /= double(std::max(Int{1}, used));
+    if (cost < next_to_nothing * by_end) cost = by_end;
     if (cost > 0.0) return cost / double(legs);
-    const double left_out = missing_cost(data, searcher);
+    const double left_out = left_out_cost(data, searcher.missing, searcher.count->missing);
     return std::max(1e-9, (searcher.value->cost - left_out) / double(data.num_nodes));
 }
 

@@ -15,7 +15,10 @@ from model.problem import (
     MM_PER_KM, MS_PER_HOUR, Balance, Customer, Depot, Fairness, Measure, Problem, Travel,
     VehicleType,
 )
+from model.search.beginning.translate import make_searcher
 from model.search.improve import SearchConfig, improve
+from model.search.problem_data import make_data
+from model.search.route.engine import leg_cost
 from model.solution import Solution
 from tests.model.tiny import draw_tiny, with_duty, with_pickups, with_reloads
 from tests.model.tiny_shipments import with_shipments
@@ -131,3 +134,19 @@ def test_trips_are_shared_out_where_the_last_end_alone_costs() -> None:
                       np.zeros((13, 2)), 1000.0, fairness=ONLY_END)
     plan = searched(problem, turns=300)
     assert sorted(len(route.trips) for route in plan.routes) == [4, 4, 4]
+
+
+@pytest.mark.parametrize(("per_km", "leg"), [(0.0, 5.0), (0.07, 0.07)])
+def test_leg_costs_its_share_of_the_last_end_where_that_alone_costs(per_km: float,
+                                                                    leg: float) -> None:
+    step = np.full((9, 9), 10 * MINUTE) * (1 - np.eye(9, dtype=np.int64))
+    ways = Travel(step, step * MM_PER_KM // (10 * MINUTE))
+    customers = tuple(Customer(str(index), (1000,)) for index in range(8))
+    van = VehicleType("van", 2, (4000,), 0, cost_per_km=per_km)
+    problem = Problem((Depot("hub"),), customers, (van,), (ways,), np.zeros((9, 2)), 1000.0,
+                      fairness=ONLY_END)
+    plan = searched(problem, turns=60)
+    assert [len(route.trips[0].customer_stops) for route in plan.routes] == [4, 4]
+    data = make_data(problem, pack([problem]))
+    searcher = make_searcher(problem, data, plan, np.random.SeedSequence(1))
+    assert leg_cost(data, searcher)[0] == pytest.approx(leg)
