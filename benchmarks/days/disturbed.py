@@ -27,6 +27,7 @@ from pydantic_core import from_json, to_json
 from app.database.durable import connect
 from app.database.migrations.running import upgrade
 from app.maps.roads.roads import NO_ROADS
+from app.plans.quoting import answer_quote
 from app.plans.service import PlanService
 from app.records.days.runner import DayRunner
 from app.records.days.service import DayService
@@ -84,9 +85,12 @@ class Drawn:
     cancelled: dict[str, float]
     broken: tuple[str, float] | None
     vans: int
+    is_calm: bool = False  # all lasts as long as planned
 
     def lasts(self, kind: str, one: str, other: str = "") -> float:
         """Return how long a way or service lasts, by what is planned."""
+        if self.is_calm:
+            return 1.0
         spread = TRAVEL_SPREAD if kind == "way" else SERVICE_SPREAD
         drawn = random.Random(f"{self.seed} {kind} {one} {other}").gauss(0.0, spread)
         return float(2.718281828459045 ** (drawn - spread**2 / 2))
@@ -152,6 +156,10 @@ class World:
     vans: dict[str, Van]
     served: dict[str, float] = field(default_factory=dict)
     told: int = 0
+    orders: dict[str, Data] = field(default_factory=dict)
+
+    def __post_init__(self) -> None:
+        self.orders |= {each["id"]: each for each in self.day.orders}
 
     def drive(self, plan: Data, now: float) -> Iterator[Data]:
         """Yield what vans have done by now. In place."""
@@ -195,8 +203,7 @@ class World:
         left = [stop for stop in stops[1:] if stop["kind"] != "customer"
                 or stop["id"] not in self.served]
         van.bound = left[0] if left else {"kind": "depot", "id": "hub"}
-        orders = {each["id"]: each for each in self.day.orders}
-        order = orders.get(van.bound["id"])
+        order = self.orders.get(van.bound["id"])
         place = HUB if order is None else order["location"]
         far = hypot(place[0] - van.place[0], place[1] - van.place[1])
         arrival = leaves + far / SPEED * self.day.lasts("way", van.at, van.bound["id"])
@@ -230,7 +237,7 @@ class Dispatcher:
         settings = Settings(data_dir=folder)
         engine = connect(settings.database)
         upgrade(engine)
-        bounds = Bounds.of_plans(settings)
+        bounds = self._bounds = Bounds.of_plans(settings)
         self._plans = PlanService(load_planner(settings.weights_dir, settings.policies,
                                                lambda: None), bounds=bounds)
         self._store = DayStore(engine)
@@ -263,6 +270,18 @@ class Dispatcher:
             raise RuntimeError(row.failure)
         return dict(from_json(self._store.plan(day) or b""))
 
+    def quote(self, day: str, order: Data, slots: list[Data]) -> Data:
+        """Price slots for an order."""
+        asked = to_json({"order": order, "slots": slots})
+        body = self._days.asked_of(day, "", asked)
+        reply = answer_quote(ReceivedBody(body, time.perf_counter()), self._bounds)
+        return self._days.quoted(day, "", asked, reply)
+
+    def accept(self, day: str, token: str, slot: int) -> None:
+        """Have an order count in a slot. In place."""
+        self._days.accept(day, "", token, to_json({"slot": slot}))
+        self._runner.hurry()
+
     def close(self) -> None:
         """End. In place."""
         self._runner.stop()
@@ -279,7 +298,6 @@ def lived(dispatcher: Dispatcher, day: Drawn, options: Data, every: float) -> Da
                         for number in range(1, day.vans + 1)})
     coming = sorted([(at, "order.placed", order) for order, at in day.placed.items() if at]
                     + [(at, "order.cancelled", order) for order, at in day.cancelled.items()])
-    orders = {each["id"]: each for each in day.orders}
     waiting, changes, now, planned_at = list[Data](), 0, BEGIN, BEGIN
     while now < END + HOUR:
         now += STEP
@@ -287,7 +305,7 @@ def lived(dispatcher: Dispatcher, day: Drawn, options: Data, every: float) -> Da
         while coming and coming[0][0] <= now:
             at, kind, order = coming.pop(0)
             waiting.append(world.event(kind, at, **(
-                {"customer": orders[order]} if kind == "order.placed" else {"order": order})))
+                {"customer": world.orders[order]} if kind == "order.placed" else {"order": order})))
         if waiting and now - planned_at >= every:
             waiting.append(world.event("clock", now))
             dispatcher.tell(name, sorted(waiting, key=lambda each: each["at"]))
@@ -338,6 +356,7 @@ def main() -> None:
     """Live days and print a table."""
     parser = argparse.ArgumentParser(description=__doc__.partition("\n")[0])
     parser.add_argument("--seeds", type=int, default=20)
+    parser.add_argument("--first", type=int, default=0, help="the first seed")
     parser.add_argument("--orders", type=int, default=40)
     parser.add_argument("--vans", type=int, default=5)
     parser.add_argument("--hindsight", type=int, default=20_000, help="turns of its search")
@@ -345,7 +364,7 @@ def main() -> None:
     found: dict[str, list[Data]] = {}
     with tempfile.TemporaryDirectory() as folder:
         dispatcher = Dispatcher(Path(folder))
-        for seed in range(options.seeds):
+        for seed in range(options.first, options.first + options.seeds):
             day = drawn(seed, options.orders, options.vans)
             for name, (stated, every) in WAYS.items():
                 found.setdefault(name, []).append(lived(dispatcher, day, stated, every))
