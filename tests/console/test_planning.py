@@ -61,7 +61,8 @@ def test_a_limit_that_fits_the_size_is_chosen_and_told(open_page: Callable[..., 
     told = page.locator("#chosen-limit")
     expect(told).to_have_text("for up to 6 s, which fits 1,800 customers")
     expect(page.locator("#total-cost")).to_be_visible()
-    stop_button(page).click()
+    # On a machine that is busy the six seconds may be over by now.
+    page.evaluate("document.querySelector('header.head button.stop')?.click()")
     idle(page)
     expect(told).to_have_count(0)
     open_tab(page, "solve")
