@@ -4,9 +4,11 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from typing import Any
 
+import httpx
 import pytest
 from playwright.sync_api import Browser, BrowserContext, ConsoleMessage, Page, Request, expect
 
+from tests.conftest import PATIENCE
 from tests.console.serving import VIEWPORT, WAIT_MS, chromium, new_context, serving
 from tests.console.steps import beginning
 
@@ -21,6 +23,13 @@ def service(tmp_path_factory: pytest.TempPathFactory) -> Iterator[str]:
     """Return the address of a service with its real planner; see `tests.console.service`."""
     with serving(tmp_path_factory.mktemp("console"), "tests.console.service") as address:
         yield address
+
+
+@pytest.fixture
+def client(service: str) -> Iterator[httpx.Client]:
+    """Return who tells the service what doesn't come from a page."""
+    with httpx.Client(base_url=service, trust_env=False, timeout=PATIENCE) as client:
+        yield client
 
 
 @pytest.fixture(scope="session")

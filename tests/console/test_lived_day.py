@@ -12,7 +12,6 @@ import pytest
 from playwright.sync_api import Browser, BrowserContext, Page, expect
 
 from tests.app.records.days.living import PROBLEM, begun, order, plan_of, standing
-from tests.conftest import PATIENCE
 from tests.console.serving import new_context
 from tests.console.test_drivers import PHONE, mark
 
@@ -51,13 +50,6 @@ class Living:
         self.client.post(f"/days/{self.day}/events", json=[
             {"event_id": f"{each['kind']}:{self.now}", "at": self.now, **each} for each in events
         ]).raise_for_status()
-
-
-@pytest.fixture
-def client(service: str) -> Iterator[httpx.Client]:
-    """Return who tells the service of the day."""
-    with httpx.Client(base_url=service, trust_env=False, timeout=PATIENCE) as client:
-        yield client
 
 
 @pytest.fixture

@@ -1,7 +1,7 @@
 """A day as it happens, in the console."""
 
 import re
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 
 import httpx
 import pytest
@@ -13,16 +13,9 @@ from tests.app.records.days.living import (
 from tests.app.records.days.test_lateness import FAR
 from tests.console.test_everyone import findings
 from tests.console.steps import open_tab, place_of, state
-from tests.conftest import PATIENCE, eventually
+from tests.conftest import eventually
 
 pytestmark = pytest.mark.slow
-
-
-@pytest.fixture
-def client(service: str) -> Iterator[httpx.Client]:
-    """Return who tells the service of days."""
-    with httpx.Client(base_url=service, trust_env=False, timeout=PATIENCE) as teller:
-        yield teller
 
 
 def test_day_is_begun_with_the_plan_and_opened_again(page: Page) -> None:

@@ -8,20 +8,13 @@ from playwright.sync_api import Browser, BrowserContext, Page, expect
 
 from tests.app.records.days.living import begun, standing
 from tests.app.records.days.test_positions import MUNICH
-from tests.conftest import PATIENCE, eventually
+from tests.conftest import eventually
 from tests.console.serving import new_context
 from tests.console.test_drivers import PHONE
 from tests.console.test_everyone import findings
 from tests.console.test_lived_day import link_of_driver
 
 pytestmark = pytest.mark.slow
-
-
-@pytest.fixture
-def client(service: str) -> Iterator[httpx.Client]:
-    """Return who tells the service of the day."""
-    with httpx.Client(base_url=service, trust_env=False, timeout=PATIENCE) as client:
-        yield client
 
 
 @pytest.fixture

@@ -10,20 +10,12 @@ import pytest
 from playwright.sync_api import Browser, BrowserContext, Page, expect
 
 from tests.app.records.dispatches.days import PLAN, PROBLEM, dispatched
-from tests.conftest import PATIENCE
 from tests.console.serving import new_context
 from tests.console.steps import open_tab
 from tests.console.test_drivers import PHONE, mark, open_page
 from tests.console.test_everyone import findings
 
 pytestmark = pytest.mark.slow
-
-
-@pytest.fixture
-def client(service: str) -> Iterator[httpx.Client]:
-    """Return a client of the service."""
-    with httpx.Client(base_url=service, trust_env=False, timeout=PATIENCE) as client:
-        yield client
 
 
 @pytest.fixture
