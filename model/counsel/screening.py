@@ -94,11 +94,10 @@ class Screen:
         trips = {vehicle: len(route.trips) for vehicle, route in routes.items()}
         behind = {vehicle: self._past.room_behind(self._problem, route, self._node)
                   for vehicle, route in routes.items()}
-        on_trips = takewhile(lambda _: time.perf_counter() < until, self._on_trips(routes))
+        on_trips = takewhile(lambda _: time.perf_counter() < until, self._on_trips(routes, behind))
         alone = (self._alone(vehicle, number, is_new=vehicle not in trips)
                  for vehicle, number in self._own_trips(trips) if self._wanted(vehicle)
-                 and number >= behind.get(vehicle, (0, 1))[0] + (
-                     behind.get(vehicle, (0, 1))[1] > 1))
+                 and (number, 1) >= behind.get(vehicle, (0, 1)))
         for guess in chain.from_iterable(chain(on_trips, alone)):
             found[guess.place.vehicle, guess.place.by].append(guess)
         for (vehicle, _), guesses in found.items():
@@ -108,18 +107,19 @@ class Screen:
             guesses.sort(key=lambda guess: guess.rank)
         return found
 
-    def _on_trips(self, routes: Mapping[Vehicle, Route]) -> Iterator[Iterator[Guess]]:
-        """Yield the places on each trip that isn't over."""
+    def _on_trips(self, routes: Mapping[Vehicle, Route], behind: Mapping[Vehicle, tuple[int, int]]
+                  ) -> Iterator[Iterator[Guess]]:
+        """Yield the places on each trip that isn't over, and not before where there is room."""
         for vehicle, route in routes.items():
             if not self._wanted(vehicle):
                 continue
             known = self._past.trips.get(vehicle, ())
-            behind = self._past.room_behind(self._problem, route, self._node)
+            first_trip, first = behind[vehicle]
             for number, trip in enumerate(route.trips):
-                if number < max(len(known) - 1, behind[0]) or (
+                if number < max(len(known) - 1, first_trip) or (
                         number < len(known) and known[number].rest != "anything"):
                     continue
-                first_stop, first_flight = behind[1] if number == behind[0] else 1, 0
+                first_stop, first_flight = first if number == first_trip else 1, 0
                 if number < len(known):
                     first_stop = max(first_stop, len(known[number].stops))
                     first_flight = len(known[number].sorties)

@@ -4,7 +4,6 @@ from datetime import datetime
 from typing import Annotated, Any, Literal, Self
 
 from pydantic import AwareDatetime, BaseModel, ConfigDict, Field, model_validator
-
 from pydantic_core import PydanticCustomError
 
 from app.schemas.check import PlannedProblem
