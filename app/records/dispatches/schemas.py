@@ -6,6 +6,7 @@ from typing import Annotated, Any, Literal, Self
 from pydantic import AwareDatetime, BaseModel, ConfigDict, Field, model_validator
 from pydantic_core import PydanticCustomError
 
+from app.maps.addresses.shapes import Latitude, Longitude
 from app.schemas.check import PlannedProblem
 from app.schemas.fields import Avoided, Info
 
@@ -35,9 +36,6 @@ TIME_ZONE = (
     "Zone in which drivers read times, by its name in the IANA's list, such as `Europe/Berlin`. "
     "Null: the problem's; if there is none, the offset of `plan_start`."
 )
-
-Longitude = Annotated[float, Field(ge=-180, le=180)]
-Latitude = Annotated[float, Field(ge=-90, le=90)]
 
 PlanStart = Annotated[AwareDatetime | None, Field(description=PLAN_START)]
 TimeZone = Annotated[str | None, Field(max_length=100, description=TIME_ZONE)]
