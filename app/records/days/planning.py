@@ -23,8 +23,6 @@ LEAST_SHARE, LEAST_SEARCHING, EACH = 0.15, 0.1, 2e-4
 """The least that is searched where what is beside takes long: a share of the time, and seconds, of
 all and for each order, without which a plan of many is refused."""
 
-NOBODY = PlanInput(routes=())
-
 _STEP = re.compile(r"\.(\w+)|\[(\d+)\]")
 
 
@@ -83,7 +81,9 @@ def asked(begun: Begun, told: ToldDay, plan: PlanInput | None,
                   if order not in told.elsewhere or order in kept}
         request[name] = [_released(each, failed.get(order))
                          for order, each in {**wanted, **back}.items()]
-    return pinned(request, told, plan or NOBODY, now) if told.pins else request
+    if not told.pins:
+        return request
+    return pinned(request, told, PlanInput.model_validate(replan["plan"], strict=False), now)
 
 
 def _search_time(within: float, beside: float, orders: int) -> float:
