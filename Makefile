@@ -102,7 +102,7 @@ fuzz: .venv/testing engine ## Send generated requests to the whole API (CASES=10
 	$(BIN)/python -m benchmarks.fuzz.replans
 	$(BIN)/python -m benchmarks.fuzz.flights
 	$(BIN)/python -m benchmarks.load.leavers
-	EVERY_SEED=1 $(PYTEST) $$(grep -rl 'tests.seeds import' tests)
+	EVERY_SEED=1 $(PYTEST) $$(grep -rlE 'tests.(seeds|model.search.optima) import' tests)
 
 settings: .venv/serving engine ## Write docs/operate/settings.md
 	$(BIN)/tandem settings > docs/operate/settings.md

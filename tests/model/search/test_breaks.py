@@ -18,7 +18,8 @@ from model.solution import Solution
 from tests.model.rollouts import roll
 from tests.model.search.break_days import cheapest as in_every_way
 from tests.model.search.break_days import found, small_day
-from tests.model.search.exhaustive import NEVER_BY_BEGINNING_LATER, cheapest_cost
+from tests.model.search.exhaustive import NEVER_BY_BEGINNING_LATER
+from tests.model.search.optima import cheapest_known
 from tests.model.search.mixed_days import mixed_day
 from tests.model.tiny import draw_tiny, with_drone_types, with_gaps, with_setups
 from tests.model.tiny_breaks import short_day, with_breaks
@@ -135,7 +136,7 @@ def searched(problem: Problem) -> float:
 @pytest.mark.parametrize("seed", [16, 67, 94, 1181, 1202, 1284, 1318, 1393])
 def test_search_finds_the_cheapest_plan_with_breaks_beside_drones(seed: int) -> None:
     problem = flown(seed)
-    assert searched(problem) == pytest.approx(cheapest_cost(problem))
+    assert searched(problem) == pytest.approx(cheapest_known(problem))
 
 
 def test_a_break_lies_where_who_is_ordered_behind_others_is_served_in_time() -> None:

@@ -14,7 +14,6 @@ from model.problem import (
 )
 from model.search.improve import SearchConfig, improve
 from model.solution import Solution
-from tests.model.search.exhaustive import cheapest_cost
 from tests.model.search.mixed_rules import (
     all_rules, all_rules_at_once, all_rules_begun, all_rules_both_ways, all_rules_drone_types,
     all_rules_elsewhere, all_rules_few_airborne, all_rules_few_at_hubs, all_rules_few_launch_places,
@@ -25,6 +24,7 @@ from tests.model.search.mixed_rules import (
     all_rules_setups, all_rules_several_places, all_rules_several_windows, all_rules_shipments,
     all_rules_swapping, all_rules_vehicle_costs,
 )
+from tests.model.search.optima import cheapest_known
 from tests.model.tiny import with_dimensions, with_places
 from tests.model.tiny_prices import with_vehicle_costs
 from tests.model.tiny_shipments import with_shipments
@@ -350,7 +350,7 @@ def missed_seeds(draw: Callable[[np.random.Generator], Problem], seeds: range) -
     missed = []
     for seed in seeds:
         problem = draw(np.random.default_rng(seed))
-        limit = cheapest_cost(problem) * (1 + 1e-9)
+        limit = cheapest_known(problem) * (1 + 1e-9)
         if all(searched_cost(problem, turns) > limit for turns in TURNS):
             missed.append(seed)
     return missed
