@@ -8,12 +8,13 @@ from typing import Any
 
 import httpx
 import pytest
-from playwright.sync_api import Page, expect
+from playwright.sync_api import Browser, Page, expect
 
 from app.maps.roads.tools import Tools
 from tests.app.maps.roads.conftest import prepared_once
 from tests.app.maps.roads.wheels import WHEELS, pinned, unpacked
 from tests.conftest import PATIENCE, eventually
+from tests.console.conftest import opening
 from tests.console.serving import serving
 from tests.console.steps import idle, open_file, place_of, planned, state
 
@@ -22,6 +23,8 @@ pytestmark = pytest.mark.slow
 HUB = [24.9497, 60.1787]
 PLACES = {"station": [24.9425, 60.1704], "market": [24.9480, 60.1679], "park": [24.9437, 60.1664],
           "theatre": [24.9465, 60.1714]}
+
+LIGHT_WATER, DARK_WATER = 0xC5DCEC, 0x14324A
 
 COLOURS = """() => {
   const seen = new Set();
@@ -97,11 +100,11 @@ LOADED = """() => {
 """Tells whether all tiles of the streets are drawn."""
 
 
-def opened(open_page: Callable[..., Page], address: str, **options: Any) -> Page:
-    """Return a console that shows a plan for the places."""
-    page = open_page(address, allow=("willReadFrequently",), **options)
-    planned_in(page)
-    return page
+@pytest.fixture(scope="module")
+def shown(browser: Browser, city: str) -> Iterator[Page]:
+    """Return a console with the streets, for tests that each begin with a plan of their own."""
+    with opening(browser) as opener:
+        yield opener(city, allow=("willReadFrequently",))
 
 
 def planned_in(page: Page, others: dict[str, Any] | None = None) -> None:
@@ -130,39 +133,58 @@ def on_screen(page: Page) -> Callable[[list[float]], tuple[float, float]]:
     return position
 
 
-@pytest.mark.parametrize("scheme", ["light", "dark"])
-def test_map_has_streets_and_thanks_their_makers(
-        open_page: Callable[..., Page], city: str, scheme: str) -> None:
-    page = opened(open_page, city, color_scheme=scheme)
-    expect(page.get_by_text("© OpenStreetMap contributors")).to_be_visible()
-    expect(page.locator(".leaflet-tile-pane canvas.leaflet-tile-loaded").first).to_be_visible()
-    water = 0xC5DCEC if scheme == "light" else 0x14324A
+def streets_with(page: Page, water: int) -> list[int]:
+    """Wait until the streets are drawn with water of a colour; return all colours."""
     page.wait_for_function(f"() => ({COLOURS})().includes({water})")
-    assert len(page.evaluate(COLOURS)) > 6
+    return list(page.evaluate(COLOURS))
 
 
-@pytest.mark.parametrize("presses", [0, 1, 2])
-def test_streets_stay_from_light_to_dark_and_back_at_any_zoom(
-        open_page: Callable[..., Page], city: str, presses: int) -> None:
-    page = opened(open_page, city)
-    page.wait_for_function(f"() => ({COLOURS})().includes({0xC5DCEC})")
-    for _ in range(presses):
-        page.get_by_role("button", name="Zoom in").first.click()
-        expect(page.locator(".leaflet-zoom-anim")).to_have_count(0)
-    page.wait_for_function(LOADED)
-    for water in (0x14324A, 0xC5DCEC):
-        page.keyboard.press("l")
-        page.wait_for_function(f"() => ({COLOURS})().includes({water})")
-        assert (0xC5DCEC if water == 0x14324A else 0x14324A) not in page.evaluate(COLOURS)
+def test_map_has_streets_and_thanks_their_makers(shown: Page) -> None:
+    planned_in(shown)
+    expect(shown.get_by_text("© OpenStreetMap contributors")).to_be_visible()
+    expect(shown.locator(".leaflet-tile-pane canvas.leaflet-tile-loaded").first).to_be_visible()
+    assert len(streets_with(shown, LIGHT_WATER)) > 6
 
 
-def test_streets_are_named_once_one_is_near_enough_to_read_it(
+def test_map_is_dark_at_once_for_whoever_likes_that(open_page: Callable[..., Page],
+                                                    city: str) -> None:
+    page = open_page(city, allow=("willReadFrequently",), color_scheme="dark")
+    planned_in(page)
+    assert len(streets_with(page, DARK_WATER)) > 6
+
+
+def test_streets_stay_from_light_to_dark_and_back_at_any_zoom(shown: Page) -> None:
+    planned_in(shown)
+    streets_with(shown, LIGHT_WATER)
+    for presses in range(3):
+        if presses:
+            shown.get_by_role("button", name="Zoom in").first.click()
+            expect(shown.locator(".leaflet-zoom-anim")).to_have_count(0)
+        shown.wait_for_function(LOADED)
+        for water, other in ((DARK_WATER, LIGHT_WATER), (LIGHT_WATER, DARK_WATER)):
+            shown.keyboard.press("l")
+            assert other not in streets_with(shown, water)
+
+
+def test_streets_weigh_little_and_are_named_once_one_is_near_enough_to_read_it(
         open_page: Callable[..., Page], city: str) -> None:
     page = open_page(city, allow=("willReadFrequently",))
     page.add_init_script(WRITTEN)
+    # A browser keeps the first few hundred alone, and modules come first.
+    page.add_init_script("performance.setResourceTimingBufferSize(5000)")
     page.reload()
     planned_in(page)
+
+    def streets() -> list[int]:
+        sizes = page.evaluate("performance.getEntriesByType('resource').map(entry => "
+                              "[entry.name, entry.encodedBodySize])")
+        return [size for name, size in sizes if "/map/" in name]
+
+    # Asked again and again: a page of this policy evaluates no text that it is to wait for.
+    eventually(streets)
     page.wait_for_function("() => window.written.has('Unioninkatu')")
+    page.wait_for_load_state("networkidle")
+    assert sum(streets()) < 300_000
     assert "Mannerheimintie" in page.evaluate("[...window.written]")
     page.evaluate("window.written.clear()")
     for _ in range(6):
@@ -176,43 +198,25 @@ def test_streets_are_named_once_one_is_near_enough_to_read_it(
     assert set(page.evaluate("[...window.written]")) - stops <= {"Helsinki"}
 
 
-@pytest.mark.parametrize(("width", "height"), [(1440, 900), (1024, 768), (390, 844)])
-def test_all_of_a_plan_on_roads_is_seen(
-        open_page: Callable[..., Page], city: str, width: int, height: int) -> None:
-    page = open_page(city, allow=("willReadFrequently",),
-                     viewport={"width": width, "height": height})
+def test_all_of_a_plan_on_roads_is_seen(shown: Page) -> None:
     here, there = ACROSS
-    planned_in(page, {
-        "depots": [{"id": "hub", "location": here}, {"id": "yard", "location": there}],
-        "customers": [{"id": "over the tracks", "location": there, "demand": [1]}]})
-    legs = page.evaluate(LEGS)
-    east = [place[0] for leg in legs for place in leg]
-    assert max(east) - min(east) > 3 * (there[0] - here[0])
-    expect(page.locator(".map-legend")).to_be_attached()
-    page.wait_for_function(f"(lines) => !({HIDDEN})(structuredClone(lines)).length",
-                           arg=[[here, there], *legs])
+    across = {"depots": [{"id": "hub", "location": here}, {"id": "yard", "location": there}],
+              "customers": [{"id": "over the tracks", "location": there, "demand": [1]}]}
+    for width, height in ((1024, 768), (390, 844), (1440, 900)):
+        planned_in(shown)
+        shown.set_viewport_size({"width": width, "height": height})
+        planned_in(shown, across)
+        legs = shown.evaluate(LEGS)
+        east = [place[0] for leg in legs for place in leg]
+        assert max(east) - min(east) > 3 * (there[0] - here[0])
+        expect(shown.locator(".map-legend")).to_be_attached()
+        shown.wait_for_function(f"(lines) => !({HIDDEN})(structuredClone(lines)).length",
+                                arg=[[here, there], *legs])
 
 
-def test_streets_weigh_little(open_page: Callable[..., Page], city: str) -> None:
-    page = open_page(city, allow=("willReadFrequently",))
-    # A browser keeps the first few hundred alone, and modules come first.
-    page.add_init_script("performance.setResourceTimingBufferSize(5000)")
-    page.reload()
+def test_leg_that_is_clicked_shows_its_road(shown: Page) -> None:
+    page = shown
     planned_in(page)
-
-    def streets() -> list[int]:
-        sizes = page.evaluate("performance.getEntriesByType('resource').map(entry => "
-                              "[entry.name, entry.encodedBodySize])")
-        return [size for name, size in sizes if "/map/" in name]
-
-    # Asked again and again: a page of this policy evaluates no text that it is to wait for.
-    eventually(streets)
-    page.wait_for_load_state("networkidle")
-    assert sum(streets()) < 300_000
-
-
-def test_leg_that_is_clicked_shows_its_road(open_page: Callable[..., Page], city: str) -> None:
-    page = opened(open_page, city)
     lines = page.evaluate(LEGS)
     number = max(range(len(lines)), key=lambda stop: len(lines[stop]))
     assert len(lines[number]) > 4

@@ -11,6 +11,7 @@ import tempfile
 import threading
 import time
 from collections.abc import Callable, Iterator
+from contextlib import suppress
 from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any
@@ -25,8 +26,8 @@ from tests.app.serving.observe.server import Server, running
 SIZE = 32 * 2**20 - 2**16
 
 HELD_UP, PROCESSOR, TRIES = 1.0, 1.0, 5
-"""Seconds for which a process's health may not be told, and that it may work; and how often it is
-tried whether that was by what was sent: other work may have the processor."""
+"""Seconds for which a process may keep its health from being told, and that it may work; and how
+often it is tried whether that was by what was sent."""
 
 EVERY = 0.02
 """Seconds between two looks, which count as the service's work too; it is held up for longer."""
@@ -44,7 +45,7 @@ class Taken:
     seconds: float
     processor: float  # seconds that the service worked, all that it did meanwhile
     grown: int  # bytes, while it was answered
-    health: float  # seconds that the slowest look at the process's health took meanwhile
+    health: float  # seconds of the slowest look at its health, but for waiting for a processor
 
 
 def repeated(begin: bytes, unit: bytes, end: bytes) -> Callable[[int], bytes]:
@@ -129,10 +130,20 @@ class Watch:
         with httpx.Client(base_url=self._server.client.base_url, timeout=60,
                           trust_env=False) as client:
             while not self._done.is_set():
-                began = time.perf_counter()
+                began, waited = time.perf_counter(), self._waited()
                 client.get("/health/live")
-                self._slowest = max(self._slowest, time.perf_counter() - began)
+                took, others = time.perf_counter() - began, self._waited() - waited
+                self._slowest = max(self._slowest, took - others)
                 self._done.wait(EVERY)
+
+    def _waited(self) -> float:
+        """Return the seconds that both processes' threads waited while others had the processor."""
+        waited = 0
+        for process in (self._process, Path("/proc/self")):
+            for thread in process.glob("task/*/schedstat"):
+                with suppress(OSError):  # that has ended
+                    waited += int(thread.read_text().split()[1])
+        return waited / 1e9
 
     def begin(self) -> tuple[int, float]:
         """Forget what was; return the bytes of memory in use and the seconds worked so far."""
@@ -204,7 +215,7 @@ def takings(server: Server, size: int = SIZE, each: int = 1) -> Iterator[Taken]:
     watch = Watch(server)
     for number, route in enumerate(routes(server, description)):
         kinds = list((KINDS | dict(in_fields(route.schema))).items())
-        for kind, body_of in kinds[number % each::each]:
+        for kind, body_of in kinds[number % len(kinds)::each]:
             yield _tried(server, watch, route, kind, body_of(size))
     watch.stop()
 

@@ -11,11 +11,12 @@ from app.main import create_app
 from app.serving.settings import Settings
 from tests.app.serving.load.nonsense import HELD_UP, PROCESSOR, Taken
 from tests.conftest import made_once
+from tests.seeds import SHARE
 
 pytestmark = pytest.mark.slow
 
-EACH = 12
-"""Of so many kinds one is sent to a route here, and another one to the next."""
+EACH = 12 * SHARE
+"""Of so many kinds one is sent to a route, and another one to the next."""
 
 GROWN = 300 * 2**20
 """Bytes."""
