@@ -10,7 +10,7 @@ BreakPlace = Literal["departure", "way", "arrival"]
 
 @dataclass(frozen=True, slots=True)
 class Stop:
-    """A place where the truck halts.
+    """A place where the truck stops.
 
     The first stop of a trip is the depot: `arrival` is when loading is done and launches may
     begin, `departure` when the truck leaves. The last stop is the depot again: `departure` is when
@@ -105,6 +105,23 @@ class Trip:
         return [(index, stop) for index, stop in enumerate(self.stops[1:-1], 1)
                 if not stop.is_launch_site]
 
+    @property
+    def nodes(self) -> list[int]:
+        """All places that it comes to, by truck and then by drones."""
+        return [*[stop.node for stop in self.stops],
+                *[node for sortie in self.sorties for node in sortie.nodes]]
+
+    @property
+    def visits(self) -> list[Stop | Visit]:
+        """Where it serves somebody, by truck and then by drones."""
+        return [*self.customer_stops,
+                *[visit for sortie in self.sorties for visit in sortie.visits]]
+
+    @property
+    def served(self) -> list[int]:
+        """Whom it serves, by truck and then by drones."""
+        return [visit.node for visit in self.visits]
+
 
 @dataclass(frozen=True, slots=True)
 class Route:
@@ -114,6 +131,16 @@ class Route:
     vehicle: int  # 0-based, within its type
     trips: tuple[Trip, ...]
 
+    @property
+    def visits(self) -> list[Stop | Visit]:
+        """Where it serves somebody, trip by trip."""
+        return [visit for trip in self.trips for visit in trip.visits]
+
+    @property
+    def served(self) -> list[int]:
+        """Whom it serves, trip by trip."""
+        return [visit.node for visit in self.visits]
+
 
 @dataclass(frozen=True, slots=True)
 class Solution:
@@ -121,6 +148,11 @@ class Solution:
 
     routes: tuple[Route, ...]
     unassigned: tuple[int, ...] = ()  # customer nodes
+
+    @property
+    def served(self) -> set[int]:
+        """Whom it serves."""
+        return {node for route in self.routes for node in route.served}
 
 
 def _as_it_is(vehicle_type: int, vehicle: int) -> tuple[int, int]:

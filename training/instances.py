@@ -5,7 +5,7 @@ from collections.abc import Callable, Sequence
 import numpy as np
 
 from model.problem import Problem
-from training.company import chosen, related, shipments
+from training.relations import chosen, related, shipments
 from training.mixture import mixed
 from training.particulars import particular
 from training.pickups import pickups

@@ -20,18 +20,18 @@ def carry(info: Info, reply: dict[str, Any]) -> None:
     """Put what is said of customers at their stops and flights. In place."""
     if not info:
         return
-    for halt in _halts(reply):
-        kind, name = named(halt)
+    for visit in _visits(reply):
+        kind, name = named(visit)
         if kind == "customer" and name in info:
-            halt["info"] = dict(info[name])
+            visit["info"] = dict(info[name])
 
 
-def named(halt: Mapping[str, Any]) -> tuple[str, str]:
-    """Return the kind of a halt of a reply, and its name; a customer's is that among them all."""
-    kind, name = halt.get("kind", "customer"), halt["id"]
+def named(visit: Mapping[str, Any]) -> tuple[str, str]:
+    """Return the kind of a visit of a reply, and its name; a customer's is that among them all."""
+    kind, name = visit.get("kind", "customer"), visit["id"]
     if kind in ENDS:
-        return "customer", end_name(name, kind, halt.get("part"))
-    other = halt.get("alternative")
+        return "customer", end_name(name, kind, visit.get("part"))
+    other = visit.get("alternative")
     return kind, name if other is None else place_name(name, other)
 
 
@@ -43,7 +43,7 @@ def names_left_out(left: Mapping[str, Any]) -> list[str]:
     return [*pickups, end_name(left["id"], "delivery")]
 
 
-def _halts(reply: dict[str, Any]) -> Iterator[dict[str, Any]]:
+def _visits(reply: dict[str, Any]) -> Iterator[dict[str, Any]]:
     for route in reply["routes"]:
         for trip in route["trips"]:
             yield from trip["stops"]

@@ -9,7 +9,7 @@ from app.plans.replies import (
 from app.plans.steps import Steps
 from app.plans.task import telling
 from app.requests.conversion.units import money, whole
-from model.counsel.alternatives import Alternative, halt_of
+from model.counsel.alternatives import Alternative, visit_of
 from model.counsel.bench import Bench, Trial
 from model.counsel.binding import Binding, Limit
 from model.counsel.explain import Reason
@@ -17,7 +17,7 @@ from model.counsel.group_moves import MovedUnit
 from model.counsel.idle_drones import Idle
 from model.counsel.worth import Worth
 from model.judge.clock import window_of
-from model.judge.places import Found, find_place, halts
+from model.judge.places import Found, find_place
 from model.judge.rules import Violation
 from model.planner import PlanResult
 from model.problem import Problem
@@ -108,16 +108,16 @@ def rules_reply(violations: Sequence[Violation]) -> list[Data]:
 def placed_reply(bench: Bench, trial: Trial, companions: Sequence[MovedUnit] = ()) -> Data:
     """Return who serves the customer where and when in a plan, or all ends of the shipment."""
     moved = {*bench.nodes, *(node for unit in companions for node in unit.nodes)}
-    placed = [(node, found, halt) for node in bench.nodes
+    placed = [(node, found, visit) for node in bench.nodes
               if (found := find_place(trial.solution, node)) is not None
-              and (halt := halt_of(trial, node)) is not None]
+              and (visit := visit_of(trial, node)) is not None]
     if not placed:
         return {"vehicle": None, "by": None, "window": None, "position": None,
                 "service_start": None}
     placed.sort(key=lambda each: each[2].service_start)
     problem = bench.problem
-    ends = [{**place_reply(problem, node), **_at_place(problem, trial, (node, found, halt), moved),
-             "arrival": whole(halt.arrival)} for node, found, halt in placed]
+    ends = [{**place_reply(problem, node), **_at_place(problem, trial, (node, found, visit), moved),
+             "arrival": whole(visit.arrival)} for node, found, visit in placed]
     node, found, _ = placed[0]
     at = {name: what for name, what in place_reply(problem, node).items() if name == "alternative"}
     reply = {"vehicle": vehicle_name(problem, trial.solution.routes[found.route]), **at,
@@ -134,21 +134,21 @@ def _at_place(problem: Problem, trial: Trial, placed: tuple[int, Found, Stop | V
 
     `moved` are all who were put there.
     """
-    (node, found, halt), place = placed, placed[1].place
+    (node, found, visit), place = placed, placed[1].place
     trip = trial.solution.routes[found.route].trips[place.trip]
     stops, by_drone = trip.stops, place.by == "drone"
     return {
         "by": "drone" if problem.vehicle_types[place.vehicle.type].flies else place.by,
-        "window": window_of(problem.customer_at(node), halt.service_start),
+        "window": window_of(problem.customer_at(node), visit.service_start),
         "position": {
             "trip": place.trip,
-            "own_trip": {each.node for each in halts(trip)} <= {*moved},
+            "own_trip": {*trip.served} <= {*moved},
             "stop": place.stop,
             "after": _name(problem, stops[place.stop - (not by_drone)].node),
             "recovery_stop": place.recovery if by_drone else None,
             "recovered_at": _name(problem, stops[place.recovery].node) if by_drone else None,
         },
-        "service_start": whole(halt.service_start),
+        "service_start": whole(visit.service_start),
     }
 
 

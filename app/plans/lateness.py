@@ -40,8 +40,8 @@ class LatenessRisk:
         for number, (route, reply) in enumerate(zip(routes, told, strict=True)):
             if reply is not None:
                 trips = outlook(problem, route, self.spread, now, number)
-                for halt, each in _halts(reply, trips):
-                    halt["lateness"] = _lateness(halt["lateness"], each)
+                for visit, each in _visits(reply, trips):
+                    visit["lateness"] = _lateness(visit["lateness"], each)
                     expected += each.expected
         return expected / MS_PER_HOUR
 
@@ -59,7 +59,7 @@ def _lateness(seconds: float, each: Expectation) -> dict[str, Any]:
             "latest": each.late / 1000}
 
 
-def _halts(reply: Data, trips: Sequence[TripOutlook]) -> Iterator[tuple[Data, Expectation]]:
+def _visits(reply: Data, trips: Sequence[TripOutlook]) -> Iterator[tuple[Data, Expectation]]:
     """Yield the customers of a route's reply, each with what is to be expected there."""
     for trip, met in zip(reply["trips"], trips, strict=True):
         yield from zip([stop for stop in trip["stops"] if stop["kind"] in CUSTOMERS], met.stops,

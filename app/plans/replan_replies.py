@@ -1,13 +1,13 @@
 """What a reply says of the plan that was given: what is settled, excused, and where parcels are."""
 
-from collections.abc import Collection, Iterator
+from collections.abc import Collection
 
 from app.plans.replies import Data, vehicle_name
 from model.judge.rules import Violation
 from model.problem import Problem
 from model.replanning.kept import Kept
 from model.replanning.replan import Replanning
-from model.solution import Route, Solution, Trip
+from model.solution import Route, Solution
 
 
 def violation_reply(violation: Violation, problem_path: str, plan_path: str) -> Data:
@@ -49,7 +49,7 @@ def replan_reply(problem: Problem, replanning: Replanning, solution: Solution,
 def _parcels(problem: Problem, replanning: Replanning, solution: Solution) -> list[Data]:
     """Return whose parcels are aboard vehicles that do nothing more, and who loads them where."""
     loading = {problem.first_place(node): (route, trip) for route in solution.routes
-               for trip in route.trips for node in _customers(trip)}
+               for trip in route.trips for node in trip.served}
     told = []
     for node, vehicle in replanning.stranded.items():
         own = problem.first_place(node)
@@ -61,12 +61,6 @@ def _parcels(problem: Problem, replanning: Replanning, solution: Solution) -> li
             "depot": None if trip is None else problem.depots[trip.stops[0].node].id,
             "by": None if route is None else vehicle_name(problem, route)})
     return told
-
-
-def _customers(trip: Trip) -> Iterator[int]:
-    yield from (stop.node for stop in trip.customer_stops)
-    for sortie in trip.sorties:
-        yield from (visit.node for visit in sortie.visits)
 
 
 def _last_settled(problem: Problem, kept: Kept) -> int:

@@ -133,7 +133,7 @@ def _trip(problem: Problem, kind: int, vehicle: str, trip: Trip, metrics: TripMe
                       zip(trip.stops, metrics.stop_loads, left, strict=True))
                   for told in [*([] if problem.is_nowhere(stop.node)
                                  else [_stop(problem, stop, load) | at_stop]),
-                               *_breaks_behind(problem, kind, trip, number, load)]],
+                               *_breaks_after(problem, kind, trip, number, load)]],
         "sorties": [_sortie(problem, kind, vehicle, _as_told(trip, sortie), measured,
                             behind)
                     for sortie, measured, behind in zip(
@@ -150,7 +150,7 @@ def _flights(trip: TripMetrics) -> list[int | None]:
     return [trip.energy, *(sortie.energy for sortie in trip.sorties)]
 
 
-def _breaks_behind(problem: Problem, kind: int, trip: Trip, stop: int,
+def _breaks_after(problem: Problem, kind: int, trip: Trip, stop: int,
                    load: Sequence[int]) -> list[Data]:
     """Return the breaks between a stop of a trip and the next."""
     return [{
@@ -226,14 +226,14 @@ def _amounts(problem: Problem, load: Sequence[int]) -> list[float]:
             for amount, places in zip(load, problem.amount_decimals, strict=True)]
 
 
-def _lateness(problem: Problem, halt: Stop | Visit) -> float:
-    latest = problem.customers[halt.node - len(problem.depots)].latest
-    return max(0, halt.service_start - latest) / 1000
+def _lateness(problem: Problem, visit: Stop | Visit) -> float:
+    latest = problem.customers[visit.node - len(problem.depots)].latest
+    return max(0, visit.service_start - latest) / 1000
 
 
-def _setup(halt: Stop | Visit) -> Data:
-    """Return the field of a halt's setup, if there is one."""
-    return {"setup": halt.setup / 1000} if halt.setup else {}
+def _setup(visit: Stop | Visit) -> Data:
+    """Return the field of a visit's setup, if there is one."""
+    return {"setup": visit.setup / 1000} if visit.setup else {}
 
 
 def _sortie(problem: Problem, kind: int, vehicle: str, sortie: Sortie,
@@ -365,8 +365,4 @@ def _co2(problem: Problem, solution: Solution, evaluation: Evaluation) -> float 
 
 def _served(problem: Problem, solution: Solution) -> set[int]:
     """Return the nodes of the customers who are served."""
-    nodes = {stop.node for route in solution.routes for trip in route.trips
-             for stop in trip.customer_stops}
-    nodes |= {visit.node for route in solution.routes for trip in route.trips
-              for sortie in trip.sorties for visit in sortie.visits}
-    return {node for node in nodes if problem.num_depots <= node < problem.num_nodes}
+    return {node for node in solution.served if problem.num_depots <= node < problem.num_nodes}

@@ -15,7 +15,6 @@ from app.requests.conversion.units import money, thousandths
 from app.requests.forecast_validation import orders_to_come
 from app.maps.roads.roads import Roads
 from app.schemas.forecast import ComingInput
-from model.judge.places import halts
 from model.judge.rules import seconds
 from model.planner import Listener, Planner, PlanOptions, PlanResult
 from model.problem import Customer, Problem, VehicleType
@@ -141,8 +140,8 @@ class Waves:
     def replies(self, problem: Problem, plan: Solution, now: int) -> list[Data]:
         """Return what a reply says of who leaves and who waits, by the plan itself."""
         until = min(self._departures(now)[1:2], default=math.inf)
-        begins = {halt.node: trip.stops[0].departure for route in plan.routes
-                  for trip in route.trips for halt in halts(trip)}
+        begins = {node: trip.stops[0].departure for route in plan.routes
+                  for trip in route.trips for node in trip.served}
         return [_reply(problem, each, begins[each.node] < until)
                 for each in self.outlooks if each.node in begins]
 

@@ -15,7 +15,7 @@ from model.counsel.group_moves import MovedUnit, companions_of, move_all
 from model.counsel.screening import Wanted, of_any, share_over
 from model.judge.clock import window_of
 from model.judge.past import Vehicle
-from model.judge.places import Means, Place, halts
+from model.judge.places import Means, Place
 from model.judge.retiming import read_route
 from model.judge.timing import RouteDecision
 from model.problem import Customer, Problem
@@ -63,14 +63,10 @@ class Findings:
     is_complete: bool  # no clock cut it short
 
 
-def halt_of(trial: Trial, node: int) -> Stop | Visit | None:
+def visit_of(trial: Trial, node: int) -> Stop | Visit | None:
     """Return when a plan serves a customer; None: it doesn't."""
-    for route in trial.solution.routes:
-        for trip in route.trips:
-            for halt in halts(trip):
-                if halt.node == node:
-                    return halt
-    return None
+    return next((visit for route in trial.solution.routes for visit in route.visits
+                 if visit.node == node), None)
 
 
 def find_alternatives(bench: Bench, until: float = math.inf) -> Findings:
@@ -211,8 +207,8 @@ def _windows(bench: Bench, until: float) -> tuple[list[Alternative], bool]:
 
 def _windows_of(bench: Bench, node: int, until: float) -> tuple[list[Alternative], bool]:
     customer = bench.problem.customer_at(node)
-    halt = halt_of(bench.plan, node)
-    now = None if halt is None else window_of(customer, halt.service_start)
+    visit = visit_of(bench.plan, node)
+    now = None if visit is None else window_of(customer, visit.service_start)
     found: list[Alternative] = []
     is_complete = True
     for window in range(len(customer.openings) if customer.gaps else 0):

@@ -11,7 +11,7 @@ from dataclasses import dataclass, replace
 from itertools import takewhile
 from typing import Literal, NamedTuple
 
-from model.counsel.alternatives import Findings, halt_of, here_of
+from model.counsel.alternatives import Findings, here_of, visit_of
 from model.counsel.bench import Bench, Trial
 from model.counsel.flight_limits import hour_limits, hub_limits
 from model.counsel.lifting import lifted
@@ -174,25 +174,25 @@ def _limits(bench: Bench, places: Sequence[Place | None]) -> Iterator[Limit]:
 
 def _customer_limits(bench: Bench, node: int) -> Iterator[Limit]:
     problem = bench.problem
-    customer, halt = problem.customer_at(node), halt_of(bench.plan, node)
+    customer, visit = problem.customer_at(node), visit_of(bench.plan, node)
     window = "time_windows" if customer.gaps else "time_window"
     last, first = ("[-1]", "[0]") if customer.gaps else ("", "")
     if customer.latest < UNLIMITED:
-        slack = None if halt is None else max(0, customer.latest - halt.ready)
+        slack = None if visit is None else max(0, customer.latest - visit.ready)
         changed = replace(customer, latest=min(customer.latest + MS_PER_MINUTE, UNLIMITED))
         yield Limit(f"{window}{last}.latest", "customer", None, "minute", _in_minutes(slack),
                     with_customers(problem, {node: changed}))
     if customer.earliest > 0:
         slack = None
-        if halt is not None and opening(customer, halt.ready) == customer.earliest:
-            slack = max(0, halt.ready - customer.earliest)
+        if visit is not None and opening(customer, visit.ready) == customer.earliest:
+            slack = max(0, visit.ready - customer.earliest)
         changed = replace(customer, earliest=max(0, customer.earliest - MS_PER_MINUTE))
         yield Limit(f"{window}{first}.earliest", "customer", None, "minute", _in_minutes(slack),
                     with_customers(problem, {node: changed}))
     trip = _trip_of(bench)
     used = {}
-    if trip is not None and halt is not None and customer.max_time_aboard is not None:
-        excess = excess_aboard(problem, _kind_of(bench), trip, halt)
+    if trip is not None and visit is not None and customer.max_time_aboard is not None:
+        excess = excess_aboard(problem, _kind_of(bench), trip, visit)
         used["time_aboard"] = min(customer.max_time_aboard + excess, customer.max_time_aboard)
     for field, unit, left, looser in loosened(customer, used, "customer"):
         yield Limit(field, "customer", None, unit, left, with_customers(problem, {node: looser}))

@@ -121,7 +121,7 @@ def _travel_duration(attempt: Attempt) -> Diagnosis:
         remedy, with_type(attempt, changed))
 
 
-def _halt(attempt: Attempt) -> Stop | Visit:
+def _visit(attempt: Attempt) -> Stop | Visit:
     """Return where the customer is served, by the truck or a drone."""
     trip = attempt.solution.routes[0].trips[0]
     return trip.sorties[0].visits[0] if trip.sorties else trip.stops[1]
@@ -159,7 +159,7 @@ def _launch(attempt: Attempt) -> Diagnosis:
 
 def _time_window(attempt: Attempt) -> Diagnosis:
     customer = attempt.customer
-    late = up_to_tenth(_halt(attempt).service_start - customer.latest, MS_PER_MINUTE)
+    late = up_to_tenth(_visit(attempt).service_start - customer.latest, MS_PER_MINUTE)
     enough = customer.latest + late
     changed = replace(customer, latest=min(enough, UNLIMITED))
     name, window = ("last window", LAST_WINDOW) if customer.gaps else ("window", 0)
@@ -176,7 +176,7 @@ def missed_window(attempt: Attempt) -> Diagnosis | None:
 
     None if nobody waits between two windows, or that doesn't suffice.
     """
-    customer, arrival = attempt.customer, _halt(attempt).ready
+    customer, arrival = attempt.customer, _visit(attempt).ready
     missed = [number for number, (closes, opens) in enumerate(customer.gaps)
               if closes < arrival < opens]
     if not missed:
@@ -200,7 +200,7 @@ def missed_window(attempt: Attempt) -> Diagnosis | None:
 
 def _time_aboard(attempt: Attempt) -> Diagnosis:
     customer, trip = attempt.customer, attempt.solution.routes[0].trips[0]
-    too_long = excess_aboard(attempt.problem, attempt.vehicle_type, trip, _halt(attempt))
+    too_long = excess_aboard(attempt.problem, attempt.vehicle_type, trip, _visit(attempt))
     excess = up_to_tenth(too_long, MS_PER_MINUTE)
     remedy, changed = more_of("time_aboard", customer, excess)
     return Diagnosis(

@@ -23,9 +23,9 @@ from model.counsel.trial import (
     Attempt, attempts, small_problem, try_shipment, try_truck,
 )
 from model.judge.check import check
-from model.judge.company import kept_off, who_decides, who_waits
 from model.judge.hubs import lacks_battery, lacks_charger
 from model.judge.metrics import unassigned_cost
+from model.judge.relations import kept_off, who_decides, who_waits
 from model.problem import MAX_MONEY, Problem, Shipment
 from model.solution import Solution
 
@@ -127,7 +127,7 @@ def _explain_at(problem: Problem, solution: Solution, index: int, node: int,
     first = next(tried)
     for attempt in chain((first,), tried):
         if not attempt.codes:
-            kept = _in_company(problem, solution, index, node)
+            kept = _by_relation(problem, solution, index, node)
             return (_unused(problem, solution, index, node, attempt) if kept is None
                     else _unrelated(problem, solution, kept))
         if time.perf_counter() >= until:
@@ -146,7 +146,7 @@ def _shipment_left_out(problem: Problem, solution: Solution, index: int,
     if attempt.evaluation.violations:
         return _with_remedy(index, shipment_broken(attempt), attempt, shipment_broken)
     for node in shipment.nodes:
-        related = _in_company(problem, solution, index, node)
+        related = _by_relation(problem, solution, index, node)
         if related is not None:
             return _unrelated(problem, solution, related)
     return _not_worth(problem, solution, index, shipment.pickup, attempt,
@@ -243,7 +243,7 @@ def _not_worth(problem: Problem, solution: Solution, index: int, node: int, atte
     return Reason(index, "SEARCH", f"{way}, but the search did not find room for it.")
 
 
-def _in_company(problem: Problem, solution: Solution, index: int, node: int) -> Reason | None:
+def _by_relation(problem: Problem, solution: Solution, index: int, node: int) -> Reason | None:
     """Say by which relation no vehicle of a type that is left serves a customer; None if one may.
     """
     kind = problem.vehicle_types[index]

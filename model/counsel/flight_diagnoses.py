@@ -53,8 +53,7 @@ def max_range_broken(attempt: Attempt) -> Diagnosis:
     sortie = trip.sorties[0] if trip.sorties else None
     ends = (0, -1) if sortie is None else (sortie.launch_stop, sortie.recovery_stop)
     meetings = [trip.stops[end].node for end in ends]
-    served = ([stop.node for stop in trip.customer_stops] if sortie is None
-              else [visit.node for visit in sortie.visits])
+    served = trip.served if sortie is None else sortie.nodes
     far = max([farthest(problem, flyer, meetings, node) for node in served])
     excess = up_to_tenth(far - (flyer.max_range or 0), MM_PER_KM)
     remedy, farther = more_of("range", flyer, excess, told_apart(flyer))

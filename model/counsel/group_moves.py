@@ -9,7 +9,7 @@ from typing import NamedTuple
 from model.counsel.bench import Bench, Drafted, Trial
 from model.judge.check import JudgedRoute
 from model.judge.past import Vehicle
-from model.judge.places import find_place, halts
+from model.judge.places import find_place
 from model.problem import Shipment
 
 
@@ -74,9 +74,8 @@ def not_with(bench: Bench, companions: tuple[MovedUnit, ...],
 
 
 def _served(bench: Bench) -> list[int]:
-    """Return the nodes that a plan serves."""
-    return [halt.node for route in bench.plan.solution.routes for trip in route.trips
-            for halt in halts(trip)]
+    """Return the nodes that a plan serves, in its order."""
+    return [node for route in bench.plan.solution.routes for node in route.served]
 
 
 def _begun(bench: Bench) -> set[int]:

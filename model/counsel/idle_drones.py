@@ -17,7 +17,7 @@ from model.counsel.bench import Bench, Setting, Trial
 from model.counsel.screening import Screen
 from model.judge.check import JudgedRoute
 from model.judge.past import Vehicle
-from model.judge.places import Means, halts
+from model.judge.places import Means
 from model.problem import UNREACHABLE, Customer, DroneType, Problem, VehicleType
 from model.solution import Route, Solution
 
@@ -81,7 +81,7 @@ def _why(problem: Problem, solution: Solution, index: int, setting: Setting, unt
     if not near:
         return Idle(index, "RANGE", "Nobody whose order its drones can carry is within reach of "
                     "its stops.")
-    own = {halt.node for trip in route.trips for halt in halts(trip)}
+    own = {*route.served}
     order = sorted(near, key=lambda found: found[1] not in own)
     return _tried(problem, solution, index, [node for _, node in order[:MOST_TRIED]], setting,
                   until, judged)

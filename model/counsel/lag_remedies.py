@@ -8,8 +8,8 @@ from model.counsel.remedy import Remedy, remedy_of
 from model.counsel.trial import attempts
 from model.judge.check import check
 from model.judge.clock import MS_PER_MINUTE
-from model.judge.company import who_waits
-from model.judge.lags import halts_of, starts_across, starts_of
+from model.judge.lags import starts_across, starts_of
+from model.judge.relations import who_waits
 from model.judge.timing import RouteDecision, TripDecision, read_decision, schedule
 from model.problem import MAX_QUANTITY, Problem, Relation
 from model.solution import Route, Solution
@@ -66,7 +66,7 @@ def _with_others(problem: Problem, solution: Solution, index: int, node: int) ->
               for other, start in starts_across(problem, route).items()}
     for attempt in attempts(bound, index, node):
         if not attempt.codes:
-            own = starts_of(halts_of(attempt.solution.routes[0].trips))
+            own = starts_of(attempt.solution.routes[0].visits)
             yield _longest(problem, node, starts | {node: max(own.values())})
 
 
@@ -76,11 +76,11 @@ def _on_route(problem: Problem, solution: Solution, index: int, node: int) -> It
     for route in solution.routes:
         stops = [stop for trip in route.trips for stop in trip.stops]
         if (route.vehicle_type != index or len(stops) > MOST_STOPS
-                or not others & set(starts_of(halts_of(route.trips)))):
+                or not others & {*route.served}):
             continue
         for tried in _places(problem, route, node):
             if not check(problem, Solution((tried,))).violations:
-                yield _longest(problem, node, starts_of(halts_of(tried.trips)))
+                yield _longest(problem, node, starts_of(tried.visits))
 
 
 def _places(problem: Problem, route: Route, node: int) -> Iterator[Route]:

@@ -92,7 +92,7 @@ class Screen:
         found: defaultdict[tuple[Vehicle, Means], list[Guess]] = defaultdict(list)
         routes = self._routes()
         trips = {vehicle: len(route.trips) for vehicle, route in routes.items()}
-        behind = {vehicle: self._past.room_behind(self._problem, route, self._node)
+        behind = {vehicle: self._past.room_after(self._problem, route, self._node)
                   for vehicle, route in routes.items()}
         on_trips = takewhile(lambda _: time.perf_counter() < until, self._on_trips(routes, behind))
         alone = (self._alone(vehicle, number, is_new=vehicle not in trips)

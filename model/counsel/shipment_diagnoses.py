@@ -8,7 +8,7 @@ from model.counsel.diagnosis import Diagnosis, up_to_tenth, with_type
 from model.counsel.remedy import LAST_WINDOW, Change, in_minutes, in_units
 from model.counsel.trial import Attempt
 from model.judge.clock import MS_PER_MINUTE
-from model.judge.lags import halts_of, starts_of
+from model.judge.lags import starts_of
 from model.judge.pairs import times_between
 from model.judge.rules import amounts
 from model.problem import MAX_QUANTITY, UNLIMITED
@@ -71,7 +71,7 @@ def _end_name(attempt: Attempt, index: int) -> str:
 def _late_ends(attempt: Attempt) -> Iterator[tuple[int, int]]:
     """Yield which customers are served too late, and by how much."""
     problem = attempt.problem
-    starts = starts_of(halts_of(attempt.solution.routes[0].trips))
+    starts = starts_of(attempt.solution.routes[0].visits)
     for index, customer in enumerate(problem.customers):
         late = starts[problem.num_depots + index] - customer.latest
         if customer.late_cost_per_hour is None and late > 0:

@@ -209,7 +209,7 @@ def attempts(problem: Problem, kind: int, node: int) -> Iterator[Attempt]:
                 return
         if _comes_second(problem, kind, customer):
             for host in _delivered_first(problem, kind, node):
-                yield _try_behind(small_problem(problem, kind, [host, node]))
+                yield _try_after(small_problem(problem, kind, [host, node]))
     if customer.served_by != "truck":
         for drones in problem.vehicle_types[kind].drone_types:
             yield from _try_drones(problem, kind, drones, node)
@@ -284,7 +284,7 @@ def _comes_second(problem: Problem, kind: int, customer: Customer) -> bool:
             and not any(customer.demand))
 
 
-def _try_behind(problem: Problem) -> Attempt:
+def _try_after(problem: Problem) -> Attempt:
     """Return a trip to the first customer, then to the second."""
     host, _ = problem.customers
     vehicle_type, node = problem.vehicle_types[0], problem.num_depots

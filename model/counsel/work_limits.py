@@ -6,7 +6,7 @@ from typing import Literal, TypeVar
 
 from model.judge.breaks import begin_of, window_of
 from model.judge.clock import MS_PER_MINUTE
-from model.judge.driving import driver_behind, travel_duration
+from model.judge.driving import driver_after, travel_duration
 from model.judge.loads import trip_loads
 from model.judge.metrics import RouteMetrics
 from model.judge.pairs import times_between
@@ -40,7 +40,7 @@ def used_by(kind: VehicleType, route: Route, measured: RouteMetrics, number: int
         "trip_distance": trip.distance,
         "endurance": trip.duration - kind.launch_duration - kind.recovery_duration}
     if kind.driving is not None:
-        used["driving_day"] = driver_behind(kind.driving, kind, route.trips).day
+        used["driving_day"] = driver_after(kind.driving, kind, route.trips).day
     return used
 
 

@@ -1,11 +1,11 @@
-"""What some customers ask for, as rows of numbers: goods, company, setups, weights."""
+"""What some customers ask for, as rows of numbers: goods, relations, setups, weights."""
 
 import numpy as np
 
 from model.problem import BoolArray, Customer, IntArray, Problem
 
 
-def company_rows(problem: Problem) -> list[tuple[int, int, int, int, int]]:
+def sharing_rows(problem: Problem) -> list[tuple[int, int, int, int, int]]:
     """Return for all customers what goods they have, and who goes with them, as bits."""
     rows = [list(row) for row in _goods_rows(problem)]
     first, next_bit = problem.num_depots, {False: 1 << len(_named(problem)), True: 1}

@@ -13,7 +13,7 @@ from model.engine.amount_rows import (
     DIMENSIONS_PER_TIER, num_tiers, padded, write_amounts,
 )
 from model.engine.asked import (
-    clash_by_themselves, company_rows, has_setups, most_asked_for, setup_rows, weight_rows,
+    clash_by_themselves, has_setups, most_asked_for, setup_rows, sharing_rows, weight_rows,
 )
 from model.engine.drone_types import NO_ROW, Kind, all_kinds
 from model.engine.hour_rows import write_hours
@@ -108,7 +108,7 @@ def _empty(problems: Sequence[Problem], types: int, variants: int, travels: int,
     ends, changes = nodes if legs else 0, _num_changes(problems)
     gaps = max((len(c.gaps) for problem in problems for c in problem.customers), default=0)
     limited = any(problem.limits_time_aboard for problem in problems)
-    apart = any(problem.limits_company for problem in problems)
+    apart = any(problem.limits_sharing for problem in problems)
     forbidden = any(each.forbids_launches for each in problems)
     instance = Instance(
         size=np.zeros(rows, SIZE),
@@ -223,8 +223,8 @@ def _pack_customers(instance: Instance, row: int, problem: Problem,
         instance.max_time_aboard[row, depots:nodes] = [
             FAR if customer.max_time_aboard is None else customer.max_time_aboard
             for customer in problem.customers]
-    if problem.limits_company:
-        instance.goods[row, depots:nodes] = company_rows(problem)
+    if problem.limits_sharing:
+        instance.goods[row, depots:nodes] = sharing_rows(problem)
     if has_setups(problem):
         instance.setup[row, :nodes] = setup_rows(problem)
 

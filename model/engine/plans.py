@@ -43,8 +43,8 @@ def _trip(numbers: Iterator[int]) -> Trip:
                 (Charge(since, until),) if since < until else ())
 
 
-def _stop(node: int, arrival: int, start: int, departure: int, setup: int, halts: int) -> Stop:
-    return Stop(node, arrival, start, departure, setup, bool(halts))
+def _stop(node: int, arrival: int, start: int, departure: int, setup: int, is_site: int) -> Stop:
+    return Stop(node, arrival, start, departure, setup, bool(is_site))
 
 
 def _sortie(numbers: Iterator[int]) -> Sortie:

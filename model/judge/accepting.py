@@ -9,7 +9,6 @@ from typing import NamedTuple
 from model.judge.chargers import with_charging
 from model.judge.check import Evaluation
 from model.judge.memory import Memory
-from model.judge.places import halts
 from model.judge.rules import Violation
 from model.problem import Problem
 from model.solution import Route, Solution
@@ -103,7 +102,7 @@ def sound_routes(judge: Memory, solution: Solution) -> Solution:
     """
     routes = list(solution.routes)
     while True:
-        served = {node for route in routes for node in _served(route)}
+        served = Solution(tuple(routes)).served
         plan = with_charging(judge.problem, Solution(tuple(routes),
                                                      judge.problem.left_out(served)))
         violations = judge.check(plan).violations if routes else ()
@@ -125,10 +124,5 @@ def _blamed(problem: Problem, routes: Sequence[Route], violation: Violation) -> 
         return (number,)
     node = problem.num_depots + number
     serving = [index for index, route in enumerate(routes)
-               if node in map(problem.first_place, _served(route))]
+               if node in map(problem.first_place, route.served)]
     return serving[1:] or serving
-
-
-def _served(route: Route) -> list[int]:
-    """Return whom a route serves."""
-    return [halt.node for trip in route.trips for halt in halts(trip)]

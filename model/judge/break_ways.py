@@ -53,7 +53,7 @@ class _Price(NamedTuple):
         return late * self.late + self.once if late > 0 else -late * self.early
 
 
-class _Behind(NamedTuple):
+class _Following(NamedTuple):
     """What follows a leg."""
 
     duration: int = 0  # at least
@@ -67,10 +67,10 @@ class _Behind(NamedTuple):
         """Nodes from which others count."""
         return sorted(self.least | self.most)
 
-    def with_before(self, leg: Leg) -> "_Behind":
+    def with_before(self, leg: Leg) -> "_Following":
         """Return what follows the leg before, which is given."""
         ready = max(leg.waits, leg.opens[0]) + leg.service + self.duration
-        return _Behind(self.duration + leg.duration + leg.setup + leg.service,
+        return _Following(self.duration + leg.duration + leg.setup + leg.service,
                        max(self.end, ready), max(self.early_cost, leg.early_cost),
                        (self.least | {node for node, _ in leg.least}) - {leg.node},
                        (self.most | {node for node, _ in leg.most}) - {leg.node})
@@ -86,7 +86,7 @@ class _Way(NamedTuple):
     prices: frozenset[_Price] = frozenset()
     cost: float = 0.0  # beside them
 
-    def ended(self, behind: _Behind) -> Instant:
+    def ended(self, behind: _Following) -> Instant:
         """Return when the route ends, at the soonest."""
         return self.time.plus(behind.duration).or_later(fixed(behind.end))
 
@@ -145,7 +145,7 @@ class _Search:
         is_steady = course.kind.speed_profile is None
         self._places = [(DEPARTURE, WAY, ARRIVAL) if each.anywhere and is_steady
                         else (DEPARTURE, ARRIVAL) for each in self._breaks]
-        behind = [_Behind()]
+        behind = [_Following()]
         for leg in reversed(course.legs):
             behind.append(behind[-1].with_before(leg))
         self._behind = behind[::-1]
@@ -233,7 +233,7 @@ class _Search:
         if begins := begins.within(self._in_time(paused, mask, self._behind[index + 1])):
             yield from self._driven(index, mask, paused._replace(begins=begins), ends, place)
 
-    def _without(self, number: int, behind: _Behind, way: _Way) -> Iterator[Begins]:
+    def _without(self, number: int, behind: _Following, way: _Way) -> Iterator[Begins]:
         """Yield for which begins a break may not be due, as far as that can be told yet."""
         each, (opens, closes) = self._breaks[number], self._windows[number]
         if self._is_lenient:
@@ -243,7 +243,7 @@ class _Search:
             yield way.begins.within(opens.plus(each.duration).until(self._course.begin))
 
     def _served(self, index: int, mask: int, way: _Way) -> Iterator[_Way]:
-        """Yield how the halt behind a leg may be made, in which window."""
+        """Yield how the stop behind a leg may be made, in which window."""
         leg, behind = self._course.legs[index], self._behind[index + 1]
         marks = dict(zip(self._behind[index].marks, way.marks, strict=True))
         ready = way.time.plus(leg.setup)
@@ -267,7 +267,7 @@ class _Search:
             if begun.least <= closes:
                 begins = begins.within(Begins(closes - begun.after + 1, begins.last))
 
-    def _in_time(self, way: _Way, mask: int, behind: _Behind) -> Begins:
+    def _in_time(self, way: _Way, mask: int, behind: _Following) -> Begins:
         """Return for which begins a route may still end in time, and cheap enough.
 
         Breaks that aren't paid shorten no work but waiting.
@@ -295,7 +295,7 @@ class _Search:
         """Yield a way with the begins for which it costs least."""
         lacking = [number for number in range(len(self._breaks)) if not mask >> number & 1]
         unpaid = self._unpaid(mask)
-        for ways in product(*[[*self._without(number, _Behind(), way)] for number in lacking]):
+        for ways in product(*[[*self._without(number, _Following(), way)] for number in lacking]):
             begins = way.begins
             for each in ways:
                 begins = begins.within(each)
@@ -344,7 +344,7 @@ def _priced(way: _Way, leg: Leg, ready: Instant, opens: int, start: Instant) -> 
     return way._replace(prices=prices, cost=cost)
 
 
-def _undominated(ways: Sequence[_Way], behind: _Behind) -> list[_Way]:
+def _undominated(ways: Sequence[_Way], behind: _Following) -> list[_Way]:
     """Return ways without those begins for which another one is no worse."""
     kept = list[_Way]()
     for way in sorted(ways, key=lambda way: (way.time.least, way.time.after)):
@@ -358,7 +358,7 @@ def _undominated(ways: Sequence[_Way], behind: _Behind) -> list[_Way]:
     return kept
 
 
-def _trimmed(way: _Way, other: _Way, behind: _Behind) -> list[_Way]:
+def _trimmed(way: _Way, other: _Way, behind: _Following) -> list[_Way]:
     """Return a way without those begins for which another one is no worse."""
     both = way.begins.within(other.begins)
     if not both or (other.time.after > way.time.after and other.time.least > way.time.least):
@@ -383,7 +383,7 @@ def _trimmed(way: _Way, other: _Way, behind: _Behind) -> list[_Way]:
 
 
 def _is_no_worse(one: _Way, other: _Way, ones: frozenset[_Price], others: frozenset[_Price],
-                 behind: _Behind, begin: int) -> bool:
+                 behind: _Following, begin: int) -> bool:
     """Tell whether a way is no worse than another for a begin, whatever follows."""
     sooner = other.time.at(begin) - one.time.at(begin)
     if sooner < 0:

@@ -112,13 +112,13 @@ def _places(problem: Problem, plan: Solution) -> dict[int, OrderPlace]:
     places = {}
     for route in plan.routes:
         vehicle = route.vehicle_type, route.vehicle
-        for position, (node, is_flown, arrival) in enumerate(_halts(route)):
+        for position, (node, is_flown, arrival) in enumerate(_in_order(route)):
             if node >= problem.num_depots:
                 places[problem.first_place(node)] = OrderPlace(vehicle, position, is_flown, arrival)
     return places
 
 
-def _halts(route: Route) -> Iterator[tuple[int, bool, int]]:
+def _in_order(route: Route) -> Iterator[tuple[int, bool, int]]:
     """Yield whom a vehicle serves in the order of its stops, flights by where they begin."""
     for trip in route.trips:
         for index, stop in enumerate(trip.stops):

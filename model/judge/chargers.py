@@ -57,7 +57,7 @@ def levels(problem: Problem, kind: VehicleType, trips: Sequence[Trip]) -> list[i
     return found
 
 
-def level_behind(problem: Problem, kind: VehicleType, trips: Sequence[Trip],
+def level_after(problem: Problem, kind: VehicleType, trips: Sequence[Trip],
                  more: Sequence[Charge] = ()) -> int:
     """Return what there is of a battery behind some trips, and charges behind them."""
     energy = _energy(kind)

@@ -11,7 +11,6 @@ from operator import attrgetter
 from types import MappingProxyType
 
 from model.judge.changes import count_changes
-from model.judge.company import plan_company, plan_orders, route_company
 from model.judge.fairness import fairness_cost
 from model.judge.hours import hours_violations
 from model.judge.hubs import hub_violations
@@ -22,6 +21,7 @@ from model.judge.metrics import (
 )
 from model.judge.past import EVERYTHING_OPEN, KnownTrip, Past, Vehicle
 from model.judge.past_rules import begins_with, past_violations
+from model.judge.relations import plan_orders, plan_relations, route_relations
 from model.judge.rules import TimedTrip, Violation, route_violations, seconds, trip_violations
 from model.judge.shipping import shipment_violations
 from model.judge.timing import read_decision, resume_trip, schedule_trip
@@ -56,7 +56,7 @@ def check(problem: Problem, solution: Solution, past: Past = EVERYTHING_OPEN,
               for index, route in enumerate(solution.routes)]
     violations = [*_assignment_violations(problem, solution, routes),
                   *_fleet_violations(problem, solution), *hub_violations(problem, solution),
-                  *plan_company(problem, [judged.nodes for judged in routes]),
+                  *plan_relations(problem, [judged.nodes for judged in routes]),
                   *plan_orders(problem, [judged.starts for judged in routes])]
     if past is not EVERYTHING_OPEN:
         violations += past_violations(problem, solution, past)
@@ -91,7 +91,7 @@ def judge_route(problem: Problem, route: Route, path: str,
                 past: Past = EVERYTHING_OPEN) -> JudgedRoute:
     """Judge a route by the rules that concern it alone."""
     route = with_launch_sites(problem, route)
-    violations, nodes = list(_unreadable(problem, route, path)), tuple(_nodes(route))
+    violations, nodes = list(_unreadable(problem, route, path)), tuple(route.served)
     if violations:
         return JudgedRoute(violations, RouteMetrics(), Cost(), 0, nodes)
     vehicle_type = problem.vehicle_types[route.vehicle_type]
@@ -110,17 +110,10 @@ def judge_route(problem: Problem, route: Route, path: str,
     violations += hours_violations(problem, trips)
     violations += route_violations(problem, vehicle_type, trips, measured, path,
                                    len(known) == len(trips))
-    violations += route_company(problem, trips, path)
+    violations += route_relations(problem, trips, path)
     starts = starts_across(problem, timed)
     return JudgedRoute(violations, measured, cost, timed.trips[-1].stops[-1].departure, nodes,
                        starts)
-
-
-def _nodes(route: Route) -> Iterator[int]:
-    for trip in route.trips:
-        yield from [stop.node for stop in trip.customer_stops]
-        for sortie in trip.sorties:
-            yield from [visit.node for visit in sortie.visits]
 
 
 def _total(costs: list[Cost]) -> Cost:

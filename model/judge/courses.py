@@ -1,4 +1,4 @@
-"""What the vehicle of a route does in order: legs, and where it halts, as far as breaks matter.
+"""What the vehicle of a route does in order: legs, and where it stops, as far as breaks matter.
 
 Exact for trucks of one speed without drones. Else legs take, and drones at stops, as long as on a
 route that is timed already. Later trips begin as soon as they can. Times in ms.
@@ -11,7 +11,7 @@ from typing import NamedTuple
 from model.judge.breaks import is_heavier
 from model.judge.clock import leg_end
 from model.judge.instants import BEGIN, Begins, Instant, fixed
-from model.judge.lags import soonest_behind
+from model.judge.lags import soonest_after
 from model.judge.loads import trip_loads
 from model.judge.timing import RouteDecision, TripDecision
 from model.problem import MS_PER_HOUR, REST, UNLIMITED, Problem, VehicleType
@@ -22,7 +22,7 @@ OUT, NOBODY = -1, -2
 
 
 class Leg(NamedTuple):
-    """A leg and the halt behind it; between two trips, reloading."""
+    """A leg and the stop behind it; between two trips, reloading."""
 
     duration: int = 0
     heavy: frozenset[int] = frozenset()  # breaks for which too much is aboard
@@ -79,7 +79,7 @@ def course_of(problem: Problem, decision: RouteDecision, route: Route, known: in
 
 
 def _counted(legs: Iterable[Leg]) -> Iterator[Leg]:
-    """Yield legs whose halts count from nobody who isn't served before."""
+    """Yield legs whose stops count from nobody who isn't served before."""
     served = {OUT}
     for leg in legs:
         yield leg._replace(least=tuple([each for each in leg.least if each[0] in served]),
@@ -114,30 +114,30 @@ def _legs(problem: Problem, kind: VehicleType, decision: TripDecision, trip: Tri
         heavy = frozenset([one for one, each in enumerate(kind.breaks) if each.max_load is not None
                            and is_heavier(loads[index + 1], each.max_load)])
         if there.node < problem.num_depots:
-            halt = _called(problem, kind, there, there is trip.stops[-1])
+            stop = _called(problem, kind, there, there is trip.stops[-1])
         else:
-            halt = _served(problem, kind, decision, there.node)
+            stop = _served(problem, kind, decision, there.node)
         is_busy = any(index + 1 in (sortie.launch_stop, sortie.recovery_stop)
                       for sortie in trip.sorties)
-        yield halt._replace(
+        yield stop._replace(
             duration=leg - here.departure, heavy=heavy, setup=there.setup, trip=number, stop=index,
             busy=there.departure - there.ready if is_busy else 0)
 
 
 def _called(problem: Problem, kind: VehicleType, stop: Stop, is_last: bool) -> Leg:
-    """Return a halt at a depot, or at a launch site."""
+    """Return a stop at a depot, or at a launch site."""
     depot, service = problem.depots[stop.node], kind.recovery_duration if is_last else 0
     return Leg(waits=depot.earliest, closes=(depot.latest - service,), service=service)
 
 
 def _served(problem: Problem, kind: VehicleType, decision: TripDecision, node: int) -> Leg:
-    """Return a halt at a customer."""
+    """Return a stop at a customer."""
     customer, lags = problem.customer_at(node), problem.lags.get(node, ())
     most = [(lag.node, lag.most) for lag in lags if lag.most < UNLIMITED]
     most += _under_way(problem, kind, node)
     most += [] if customer.max_time_aboard is None else [(OUT, customer.max_time_aboard)]
     return Leg(
-        waits=max([soonest_behind(problem, node, {}), *(
+        waits=max([soonest_after(problem, node, {}), *(
             each.until for each in decision.awaited if each.node == node)]),
         opens=customer.openings, closes=(*(closes for closes, _ in customer.gaps), customer.latest),
         early_cost=customer.early_cost_per_hour / MS_PER_HOUR,

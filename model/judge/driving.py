@@ -86,7 +86,7 @@ class Driver:
             self.is_half_rested = True
 
 
-def driver_behind(rules: DrivingRules, kind: VehicleType, trips: Sequence[Trip]) -> Driver:
+def driver_after(rules: DrivingRules, kind: VehicleType, trips: Sequence[Trip]) -> Driver:
     """Return what is counted of the driver of a route once its trips are over."""
     driver = Driver(rules, begin_of(kind, trips[0]))
     for spell in (spell for trip in trips for spell in spells(trip)):

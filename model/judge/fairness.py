@@ -59,8 +59,5 @@ def share_of(problem: Problem, measure: Measure, route: Route, metrics: RouteMet
         return sum([trip.distance for trip in metrics.trips])
     if measure == "stops":
         return sum([len(trip.customer_stops) for trip in route.trips])
-    nodes = [stop.node for trip in route.trips for stop in trip.customer_stops]
-    nodes += [visit.node for trip in route.trips for sortie in trip.sorties
-              for visit in sortie.visits]
-    customers = [problem.customer_at(node) for node in nodes]
+    customers = [problem.customer_at(node) for node in route.served]
     return sum([customer.demand[0] + customer.taken_in[0] for customer in customers])

@@ -44,7 +44,7 @@ def trip_charges(problem: Problem, kind: VehicleType, trips: Sequence[Trip]) -> 
     return found
 
 
-def _rest_behind(problem: Problem, kind: VehicleType, energy: Energy,
+def _rest_after(problem: Problem, kind: VehicleType, energy: Energy,
                  before: Sequence[Trip]) -> Rest:
     """Return what there is of a battery after some trips, and since when it is charged."""
     if not before:
@@ -60,7 +60,7 @@ def charged_between(problem: Problem, kind: VehicleType, before: Sequence[Trip],
     energy = kind.energy
     if energy is None or not energy.charge:
         return ()
-    return (charge_after(energy, _rest_behind(problem, kind, energy, before), time),)
+    return (charge_after(energy, _rest_after(problem, kind, energy, before), time),)
 
 
 def charged_start(problem: Problem, kind: VehicleType, before: Sequence[Trip],
@@ -72,7 +72,7 @@ def charged_start(problem: Problem, kind: VehicleType, before: Sequence[Trip],
     energy = kind.energy
     if energy is None or not energy.charge:
         return 0
-    rest = _rest_behind(problem, kind, energy, before)
+    rest = _rest_after(problem, kind, energy, before)
     duration = problem.travel[kind.travel].duration
     legs = [duration.item(*leg) + problem.setup_between(*leg) for leg in pairwise(nodes)]
     services = [kind.service_at(problem.customer_at(node)) for node in nodes[1:-1]]

@@ -13,15 +13,13 @@ def first_departure(kind: VehicleType, trip: Trip) -> int:
     return min([trip.stops[0].departure, *take_offs])
 
 
-def excess_aboard(problem: Problem, kind: VehicleType, trip: Trip, halt: Stop | Visit) -> int:
+def excess_aboard(problem: Problem, kind: VehicleType, trip: Trip, visit: Stop | Visit) -> int:
     """Return by how much a customer's parcel is too long aboard."""
-    limit = problem.customer_at(halt.node).max_time_aboard
-    return 0 if limit is None else halt.service_start - first_departure(kind, trip) - limit
+    limit = problem.customer_at(visit.node).max_time_aboard
+    return 0 if limit is None else visit.service_start - first_departure(kind, trip) - limit
 
 
 def most_excess(problem: Problem, kind: VehicleType, trip: Trip) -> int:
     """Return by how much a parcel is too long aboard at most; 0 if none is."""
-    halts: list[Stop | Visit] = [
-        *trip.customer_stops, *(visit for sortie in trip.sorties for visit in sortie.visits)]
-    return max([0, *(excess_aboard(problem, kind, trip, halt) for halt in halts),
+    return max([0, *(excess_aboard(problem, kind, trip, visit) for visit in trip.visits),
                 *(excess for _, _, excess in times_between(problem, kind, trip))])

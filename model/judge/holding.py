@@ -60,10 +60,10 @@ def _met(problem: Problem, kind: VehicleType,
     for stop in trip.stops:
         yield stop.arrival, changes
         yield stop.departure, changes
-    halts: list[Stop | Visit] = [*trip.stops]
-    halts += [visit for sortie in trip.sorties for visit in sortie.visits]
-    for halt in halts:
-        if halt.node >= problem.num_depots:
-            customer = problem.customer_at(halt.node)
-            yield halt.ready, sorted([customer.earliest, *(customer.span or ()), *(
+    visits: list[Stop | Visit] = [*trip.stops]
+    visits += [visit for sortie in trip.sorties for visit in sortie.visits]
+    for visit in visits:
+        if visit.node >= problem.num_depots:
+            customer = problem.customer_at(visit.node)
+            yield visit.ready, sorted([customer.earliest, *(customer.span or ()), *(
                 time for closes, opens in customer.gaps for time in (closes + 1, opens))])

@@ -1,6 +1,6 @@
 """Who is served before whom, by one vehicle or any, and how much later the other is."""
 
-from collections.abc import Container, Iterable, Iterator, Mapping
+from collections.abc import Container, Iterable, Mapping
 from itertools import chain
 from typing import NamedTuple, Protocol
 
@@ -21,23 +21,16 @@ def waits_of(trip: Trip, bound: Container[int]) -> tuple[Awaited, ...]:
                   if stop.node in bound]) if bound else ()
 
 
-def starts_of(halts: Iterable[Stop | Visit]) -> dict[int, int]:
-    """Return when service begins at the nodes of some halts."""
-    return {halt.node: halt.service_start for halt in halts}
-
-
-def halts_of(trips: Iterable[Trip]) -> Iterator[Stop | Visit]:
-    """Yield where customers are served on some trips."""
-    for trip in trips:
-        yield from trip.customer_stops
-        yield from chain.from_iterable([sortie.visits for sortie in trip.sorties])
+def starts_of(visits: Iterable[Stop | Visit]) -> dict[int, int]:
+    """Return when service begins at the nodes of some visits."""
+    return {visit.node: visit.service_start for visit in visits}
 
 
 def starts_across(problem: Problem, route: Route) -> dict[int, int]:
     """Return when service begins at those whom a route serves of orders across vehicles."""
     if not problem.lags_across:
         return {}
-    return {node: start for node, start in starts_of(halts_of(route.trips)).items()
+    return {node: start for node, start in starts_of(route.visits).items()
             if node in problem.lags_across}
 
 
@@ -45,10 +38,10 @@ def soonest_across(problem: Problem, routes: Iterable[Route], node: int) -> int:
     """Return when service at a customer may begin at the soonest, for those whom routes serve."""
     starts = {other: start for route in routes
               for other, start in starts_across(problem, route).items()}
-    return soonest_behind(problem, node, starts)
+    return soonest_after(problem, node, starts)
 
 
-def soonest_behind(problem: Problem, node: int, starts: Mapping[int, int]) -> int:
+def soonest_after(problem: Problem, node: int, starts: Mapping[int, int]) -> int:
     """Return the same by when service begins at others, and who was served before the plan."""
     since = {SINCE_PLAN_START: 0, **starts}
     return max([since[lag.node] + lag.least for lag in problem.lags_across.get(node, ())
@@ -70,9 +63,9 @@ def awaited(problem: Problem, node: int, before: Iterable[Trip], stops: Iterable
     """
     if node not in problem.lags and node not in problem.lags_across:
         return 0
-    starts = starts_of(chain(halts_of(before), stops,
+    starts = starts_of(chain(*[trip.visits for trip in before], stops,
                              *[flight.visits for flight in flights.values()]))
-    return max([soonest_behind(problem, node, {}),
+    return max([soonest_after(problem, node, {}),
                 *(each.until for each in chosen if each.node == node),
                 *(starts[lag.node] + lag.least for lag in problem.lags.get(node, ())
                   if lag.node in starts)])
@@ -82,6 +75,6 @@ def excess_of_lags(problem: Problem, trip: Trip) -> int:
     """Return by how much a customer of a trip is served too long after another; 0 if none is."""
     if not problem.lags:
         return 0
-    starts = starts_of(halts_of((trip,)))
+    starts = starts_of(trip.visits)
     return max([0, *(start - starts[lag.node] - lag.most for node, start in starts.items()
                      for lag in problem.lags.get(node, ()) if lag.node in starts)])

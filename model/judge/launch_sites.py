@@ -1,4 +1,4 @@
-"""Stops at launch sites, where trucks halt for their drones alone."""
+"""Stops at launch sites, where trucks stop for their drones alone."""
 
 from collections.abc import Iterator
 from dataclasses import replace
@@ -23,7 +23,7 @@ def with_launch_sites(problem: Problem, route: Route) -> Route:
 
 
 def site_violations(problem: Problem, kind: int, trips: list[TimedTrip]) -> Iterator[Violation]:
-    """What stops at launch sites break: who may halt there, when, and after whom."""
+    """What stops at launch sites break: who may stop there, when, and after whom."""
     if not problem.launch_sites:
         return
     vehicle_type, served = problem.vehicle_types[kind], set[str]()

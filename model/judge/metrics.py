@@ -10,7 +10,7 @@ from model.judge.flown_trips import trip_energy
 from model.judge.freshness import first_departure
 from model.judge.loads import highest, sortie_loads, trip_loads
 from model.problem import MM_PER_KM, MS_PER_HOUR, DroneType, Problem, VehicleType
-from model.solution import Cost, Route, Sortie, Stop, Trip, Visit
+from model.solution import Cost, Route, Sortie, Trip
 
 
 @dataclass(frozen=True)
@@ -103,27 +103,18 @@ def measure_trip(problem: Problem, vehicle_type: VehicleType, trip: Trip) -> Tri
     )
 
 
-def _customers_of(trip: Trip) -> list[Stop | Visit]:
-    """Return whom a trip serves, by truck and then by drone."""
-    halts: list[Stop | Visit] = [*trip.customer_stops]
-    for sortie in trip.sorties:
-        halts += sortie.visits
-    return halts
-
-
 def _window_costs(problem: Problem, route: Route) -> tuple[float, float]:
     """Return the costs of lateness and of earliness."""
     customers, first = problem.customers, len(problem.depots)
     lateness = earliness = 0.0
-    for trip in route.trips:
-        for halt in _customers_of(trip):
-            customer = customers[halt.node - first]
-            waiting = opening(customer, halt.ready) - halt.ready
-            if waiting > 0:
-                earliness += waiting * customer.early_cost_per_hour / MS_PER_HOUR
-            late = halt.service_start - customer.latest
-            if late > 0 and customer.late_cost_per_hour is not None:
-                lateness += late * customer.late_cost_per_hour / MS_PER_HOUR + customer.late_cost
+    for visit in route.visits:
+        customer = customers[visit.node - first]
+        waiting = opening(customer, visit.ready) - visit.ready
+        if waiting > 0:
+            earliness += waiting * customer.early_cost_per_hour / MS_PER_HOUR
+        late = visit.service_start - customer.latest
+        if late > 0 and customer.late_cost_per_hour is not None:
+            lateness += late * customer.late_cost_per_hour / MS_PER_HOUR + customer.late_cost
     return lateness, earliness
 
 
@@ -176,8 +167,7 @@ def measure_route(
         stops += sum([problem.depots[stop.node].stop_cost for trip in route.trips
                       for stop in trip.stops if stop.is_launch_site])
     if problem.vehicle_costs is not None:
-        stops += sum([problem.vehicle_cost(route.vehicle_type, halt.node)
-                      for trip in route.trips for halt in _customers_of(trip)])
+        stops += sum([problem.vehicle_cost(route.vehicle_type, node) for node in route.served])
     distance = sum([trip.distance for trip in trips]) * vehicle_type.cost_per_km
     time = working * vehicle_type.cost_per_hour
     if vehicle_type.cost_per_load_km:

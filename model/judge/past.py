@@ -89,7 +89,7 @@ class Past:
         """Whom any vehicle served before, if who is new comes behind these."""
         return frozenset[int]().union(*self.had.values())
 
-    def room_behind(self, problem: Problem, route: Route, node: int) -> tuple[int, int]:
+    def room_after(self, problem: Problem, route: Route, node: int) -> tuple[int, int]:
         """Return the trip, and the stop of it, from which on somebody may come into a route."""
         had = self.had.get(Vehicle(route.vehicle_type, route.vehicle), frozenset())
         first = 0, 1
@@ -183,11 +183,9 @@ def bound_until(problem: Problem, kind: VehicleType, trip: Trip, now: int) -> in
     Whoever has taken off flies its trip to the end, ends of shipments are served in pairs, and
     drivers rest as planned.
     """
-    nodes = [stop.node for stop in trip.stops]
-    flown = [visit.node for sortie in trip.sorties for visit in sortie.visits]
     is_bound = kind.flies or bool(kind.breaks) or kind.driving is not None
-    is_whole = (is_bound and min(nodes, default=0) >= 0) or any(
-        node in problem.shipment_at for node in (*nodes, *flown))
+    is_whole = (is_bound and min([stop.node for stop in trip.stops], default=0) >= 0) or any(
+        node in problem.shipment_at for node in trip.nodes)
     begins = [*(stop.departure for stop in trip.stops[:1]), *launch_begins(trip.sorties, kind)]
     if not is_whole or min(begins, default=now + 1) > now:
         return now
@@ -210,11 +208,9 @@ def known_trip(problem: Problem, kind: VehicleType, trip: Trip, now: int) -> Kno
     is_over = left == len(trip.stops)
     if not is_over:
         stops.append(_bound_for(problem, trip.stops[left], now))
-    nodes = [stop.node for stop in trip.customer_stops]
-    nodes += [visit.node for sortie in trip.sorties for visit in sortie.visits]
     sorties = tuple(_known_sortie(sortie, trip, len(stops), now) for sortie in launched)
     return KnownTrip(tuple(stops), sorties, frozenset(
-        node for node in nodes if node >= 0 and node not in problem.shipment_at),
+        node for node in trip.served if node >= 0 and node not in problem.shipment_at),
                      "nothing" if is_over else "anything", _before(trip.breaks, stops))
 
 

@@ -35,7 +35,7 @@ def _route_violations(problem: Problem, route: Route, past: Past, carriers: dict
     if vehicle in past.unavailable and len(route.trips) > len(known):
         yield Violation("UNAVAILABLE", f"does nothing more from {seconds(past.now)} on", path)
     yield from _order_violations(problem, route, past, vehicle, path)
-    yield from _behind_violations(problem, route, past, vehicle, path)
+    yield from _after_violations(problem, route, past, vehicle, path)
     for number, trip in enumerate(route.trips):
         trip_path = f"{path}.trips[{number}]"
         begun = known[number] if number < len(known) else None
@@ -93,7 +93,7 @@ def _order_violations(problem: Problem, route: Route, past: Past, vehicle: Vehic
             yield Violation("ORDER", message, path)
 
 
-def _behind_violations(problem: Problem, route: Route, past: Past, vehicle: Vehicle,
+def _after_violations(problem: Problem, route: Route, past: Past, vehicle: Vehicle,
                        path: str) -> Iterator[Violation]:
     """Yield the new ones that come before somebody whom their vehicle had before."""
     had = past.had.get(vehicle)

@@ -13,7 +13,7 @@ from model.judge.breaks import ON_A_LEG, BreakDecision
 from model.judge.past import Vehicle
 from model.judge.timing import Operation, RouteDecision, SortieDecision, TripDecision
 from model.problem import Problem, Shipment
-from model.solution import Route, Solution, Stop, Trip, Visit
+from model.solution import Route, Solution
 
 Means = Literal["truck", "drone"]
 
@@ -53,14 +53,6 @@ class Found:
     flight: int = 0
 
 
-def halts(trip: Trip) -> list[Stop | Visit]:
-    """Return where a trip's customers are served, by truck and then by drone."""
-    found: list[Stop | Visit] = [*trip.customer_stops]
-    for sortie in trip.sorties:
-        found += sortie.visits
-    return found
-
-
 def used_place(problem: Problem, solution: Solution, node: int) -> int:
     """Return the place of a customer that a plan uses; his own if it leaves him out."""
     places = problem.places_of(node)
@@ -73,10 +65,10 @@ def find_place(solution: Solution, node: int) -> Found | None:
     for index, route in enumerate(solution.routes):
         for number, trip in enumerate(route.trips):
             vehicle = Vehicle(route.vehicle_type, route.vehicle)
-            is_alone = len(halts(trip)) == 1
-            for stop, halt in enumerate(trip.stops[1:-1], 1):
-                if halt.node == node and not halt.is_launch_site:
-                    return Found(index, Place(vehicle, number, "truck", stop,
+            is_alone = len(trip.visits) == 1
+            for at, stop in enumerate(trip.stops[1:-1], 1):
+                if stop.node == node and not stop.is_launch_site:
+                    return Found(index, Place(vehicle, number, "truck", at,
                                               own_trip=is_alone))
             for flight, sortie in enumerate(trip.sorties):
                 nodes = [visit.node for visit in sortie.visits]
@@ -98,7 +90,7 @@ def find_shipment(solution: Solution, shipment: Shipment) -> Found | None:
     trip = solution.routes[first.route].trips[first.place.trip]
     return replace(first, place=first.place._replace(
         by="drone" if any(each.place.by == "drone" for each in known) else "truck",
-        own_trip={halt.node for halt in halts(trip)} == {*shipment.nodes}))
+        own_trip={*trip.served} == {*shipment.nodes}))
 
 
 def routes_without(decision: RouteDecision, found: Found) -> Iterator[RouteDecision]:

@@ -14,7 +14,6 @@ from model.judge.check import JudgedRoute, judge_route
 from model.judge.clock import closing
 from model.judge.flown_trips import charged_start
 from model.judge.past import KnownTrip, Past, Vehicle
-from model.judge.places import halts
 from model.judge.placing import is_exact, with_breaks, with_due_rests
 from model.judge.timing import (
     RouteDecision, TripDecision, latest_release, read_decision, resume_trip, schedule_trip,
@@ -220,7 +219,7 @@ class _Timer:
         if not (trip.sorties or self._type.speed_profile or self._type.busy_until
                 or self._problem.launch_sites or self._problem.lags or trip.breaks):
             return _plain_delay(self._problem, trip, room)
-        high = room + sum([halt.service_start - halt.ready for halt in halts(trip)])
+        high = room + sum([visit.service_start - visit.ready for visit in trip.visits])
         high += sum([taken.start - taken.arrival for taken in trip.breaks])
         high += trip.stops[-1].service_start - trip.stops[-1].arrival
         low, latest = 0, trip.stops[-1].departure + room
@@ -260,5 +259,5 @@ def _is_open(problem: Problem, trip: Trip) -> bool:
 
 def _lateness(problem: Problem, trip: Trip) -> int:
     """Return by how much all customers of a trip are served too late, added up."""
-    return sum([max(0, halt.service_start - problem.customer_at(halt.node).latest)
-                for halt in halts(trip)])
+    return sum([max(0, visit.service_start - problem.customer_at(visit.node).latest)
+                for visit in trip.visits])

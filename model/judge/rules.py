@@ -94,7 +94,7 @@ def trip_violations(problem: Problem, kind: int, timed: TimedTrip) -> Iterator[V
     if trip.stops[0].arrival < release:
         message = f"begins at {seconds(trip.stops[0].arrival)}, released at {seconds(release)}"
         yield Violation("RELEASE", message, path)
-    yield from _halt_violations(problem, kind, trip.numbered_stops, f"{path}.stops")
+    yield from _visit_violations(problem, kind, trip.numbered_stops, f"{path}.stops")
     yield from _aboard_violations(problem, vehicle_type, timed)
     if vehicle_type.flies:
         yield from _flown_violations(problem, vehicle_type, trip, path)
@@ -139,28 +139,28 @@ def _battery_violations(vehicle_type: VehicleType, trip: Trip, path: str) -> Ite
             yield Violation("BATTERIES", message, f"{path}.sorties[{flown[stock]}]")
 
 
-def _halt_violations(
+def _visit_violations(
     problem: Problem,
     kind: int,
-    halts: Iterable[tuple[int, Stop | Visit]],
+    visits: Iterable[tuple[int, Stop | Visit]],
     path: str,
 ) -> Iterator[Violation]:
     """What customers demand of those who come: type and kind of vehicle, skills and window."""
     first_customer, vehicle_type = len(problem.depots), problem.vehicle_types[kind]
-    for index, halt in halts:
-        customer = problem.customers[halt.node - first_customer]
-        if not problem.allows(kind, halt.node):
+    for index, visit in visits:
+        customer = problem.customers[visit.node - first_customer]
+        if not problem.allows(kind, visit.node):
             message = f"{vehicle_type.id} may not serve customer {customer.id}"
             yield Violation("VEHICLE", message, f"{path}[{index}]")
-        way = "truck" if isinstance(halt, Stop) and not vehicle_type.flies else "drone"
+        way = "truck" if isinstance(visit, Stop) and not vehicle_type.flies else "drone"
         if customer.served_by not in (way, "either"):
             message = f"customer {customer.id} is served by {customer.served_by} only"
             yield Violation("SERVED_BY", message, f"{path}[{index}]")
         if not customer.skills <= vehicle_type.skills:
             missing = ", ".join(sorted(customer.skills - vehicle_type.skills))
             yield Violation("SKILLS", f"{vehicle_type.id} lacks {missing}", f"{path}[{index}]")
-        if halt.service_start > customer.latest and customer.late_cost_per_hour is None:
-            message = (f"customer {customer.id} is reached at {seconds(halt.service_start)}, "
+        if visit.service_start > customer.latest and customer.late_cost_per_hour is None:
+            message = (f"customer {customer.id} is reached at {seconds(visit.service_start)}, "
                        f"after {seconds(customer.latest)}")
             yield Violation("TIME_WINDOW", message, f"{path}[{index}]")
 
@@ -184,15 +184,15 @@ def _aboard_violations(problem: Problem, kind: VehicleType,
     trip, path = timed.trip, timed.path
     if not problem.limits_time_aboard:
         return
-    halts: list[tuple[str, Stop | Visit]] = [
+    visits: list[tuple[str, Stop | Visit]] = [
         (f"{path}.stops[{index}]", stop) for index, stop in trip.numbered_stops]
-    halts += [(f"{path}.sorties[{index}].visits[{number}]", visit)
+    visits += [(f"{path}.sorties[{index}].visits[{number}]", visit)
               for index, sortie in enumerate(trip.sorties)
               for number, visit in enumerate(sortie.visits)]
-    for place, halt in halts:
-        excess = excess_aboard(problem, kind, trip, halt)
+    for place, visit in visits:
+        excess = excess_aboard(problem, kind, trip, visit)
         if excess > 0:
-            customer = problem.customer_at(halt.node)
+            customer = problem.customer_at(visit.node)
             yield Violation("TIME_ABOARD", f"the parcel of {customer.id} is {seconds(excess)} too "
                             "long aboard before service", place)
 
@@ -241,7 +241,7 @@ def _sortie_violations(
     if not 1 <= len(sortie.visits) <= drones.max_customers_per_sortie:
         message = f"{len(sortie.visits)} customers, 1 to {drones.max_customers_per_sortie} allowed"
         yield Violation("SORTIE_SIZE", message, path)
-    yield from _halt_violations(problem, kind, enumerate(sortie.visits), f"{path}.visits")
+    yield from _visit_violations(problem, kind, enumerate(sortie.visits), f"{path}.visits")
     payload = highest(sortie_loads(problem, sortie))
     if _exceeds(payload, drones.capacity):
         message = (f"payload {amounts(problem, payload)} exceeds "
@@ -263,13 +263,13 @@ def _sortie_violations(
 
 
 def _range_violations(problem: Problem, flyer: DroneType | VehicleType, ends: Sequence[int],
-                      halts: Sequence[Stop | Visit], path: str,
+                      visits: Sequence[Stop | Visit], path: str,
                       first_index: int) -> Iterator[Violation]:
     """Customers who lie too far from where a flight begins, or ends."""
-    for index, halt in enumerate(halts, first_index):
-        far, limit = farthest(problem, flyer, ends, halt.node), flyer.max_range
+    for index, visit in enumerate(visits, first_index):
+        far, limit = farthest(problem, flyer, ends, visit.node), flyer.max_range
         if limit is not None and far > limit:
-            message = (f"customer {problem.customer_at(halt.node).id} lies {decimal(far)} m from "
+            message = (f"customer {problem.customer_at(visit.node).id} lies {decimal(far)} m from "
                        f"where it is launched or recovered, at most {decimal(limit)} m are allowed")
             yield Violation("MAX_RANGE", message, f"{path}[{index}]")
 

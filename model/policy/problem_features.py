@@ -188,7 +188,7 @@ def node_features(instance: Instance, scale: Scales, coordinates: FloatArray,
     seen["nearness"] = squash(home / scale.near[:, None] / 4)
     _describe_who_serves(instance, demand, seen)
     _describe_rarer_of_nodes(instance, scale, seen)
-    _describe_company(instance, scale, place, seen)
+    _describe_relations(instance, scale, place, seen)
     return seen
 
 
@@ -232,7 +232,7 @@ def _describe_rarer_of_nodes(instance: Instance, scale: Scales, seen: Records) -
         seen["barred"] = apart.sum(axis=2) / np.maximum(instance.size["customers"], 1)[:, None]
 
 
-def _describe_company(instance: Instance, scale: Scales, place: FloatArray,
+def _describe_relations(instance: Instance, scale: Scales, place: FloatArray,
                       seen: Records) -> None:
     """Describe who belongs together, and what serving customers costs on top. In place.
 

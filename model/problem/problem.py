@@ -73,7 +73,7 @@ class Problem:
             require(self.may_stop.dtype == np.bool_, "may_stop dtype", self.may_stop.dtype)
             require(self.may_stop.shape == (len(self.vehicle_types), self.num_depots),
                     "may_stop shape", self.may_stop.shape)
-        self._require_company()
+        self._require_relations()
         for matrix in self.travel:
             require(matrix.duration.shape == (self.num_nodes, self.num_nodes), "travel shape",
                      matrix.duration.shape)
@@ -98,7 +98,7 @@ class Problem:
             require_rate("vehicle_costs", float(costs.min(initial=0.0)))
             require_rate("vehicle_costs", float(costs.max(initial=0.0)))
 
-    def _require_company(self) -> None:
+    def _require_relations(self) -> None:
         named = frozenset().union(*(each.goods for each in self.incompatible_goods))
         require(len(named) <= MOST_INCOMPATIBLE, "incompatible goods", len(named))
         together = sum(each.keeps_together for each in self.relations)
@@ -322,7 +322,7 @@ class Problem:
         return tuple([each for each in left if each is not None])
 
     @cached_property
-    def limits_company(self) -> bool:
+    def limits_sharing(self) -> bool:
         """Tell whether it matters who goes with whom."""
         return bool(self.incompatible_goods
                     or any(not each.across for each in self.relations))

@@ -4,7 +4,7 @@ What is planned anew begins where a vehicle has all drones aboard, and serves wh
 problem of its own. The plan given may know better: no new plan should be worse than that.
 """
 
-from collections.abc import Collection, Iterator, Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import replace
 
 from model.judge.check import judge_route
@@ -78,14 +78,7 @@ def as_it_stands(problem: Problem, plan: Solution, kept: Mapping[Vehicle, Kept])
     order = [*kept, *(vehicle for vehicle in planned if vehicle not in kept)]
     return complete(problem, tuple([
         planned[vehicle] for vehicle in order
-        if all(node >= 0 for trip in planned[vehicle].trips for node in _nodes(trip))]))
-
-
-def _nodes(trip: Trip) -> Iterator[int]:
-    """Yield all nodes of a trip."""
-    yield from (stop.node for stop in trip.stops)
-    for sortie in trip.sorties:
-        yield from (visit.node for visit in sortie.visits)
+        if all(node >= 0 for trip in planned[vehicle].trips for node in trip.nodes)]))
 
 
 def driven_on(problem: Problem, plan: Solution, kept: Mapping[Vehicle, Kept],

@@ -16,8 +16,8 @@ from model.judge.timing import (
 )
 from model.problem import Problem
 from model.replanning.amend import customers_of, repaired_route, without
-from model.replanning.company import in_company
 from model.replanning.kept import Kept
+from model.replanning.relations import in_relation
 from model.replanning.remainder import Remainder
 from model.replanning.spans import awaiting, out_of_turn
 from model.solution import Route, Solution, Trip
@@ -90,7 +90,7 @@ def _rest_of_trip(left: Remainder, kind: int, planned: TripDecision,
 def _scheduled(left: Remainder, decisions: Iterable[RouteDecision]) -> Solution:
     """Return a plan of what is left without the customers for whom rules are broken."""
     made: list[Route] = []
-    for decision in in_company(left.problem, [*decisions]):
+    for decision in in_relation(left.problem, [*decisions]):
         route = _in_turn(left, decision, made)
         made += [] if route is None else [route]
     return with_charging(left.problem, complete(left.problem, tuple(
@@ -164,17 +164,7 @@ def _timed_with_breaks(problem: Problem, decision: RouteDecision) -> Route:
 
 def complete(problem: Problem, routes: tuple[Route, ...]) -> Solution:
     """Return a plan whose other customers are left out."""
-    return Solution(routes, problem.left_out(served_by(Solution(routes))))
-
-
-def served_by(plan: Solution) -> set[int]:
-    """Return whom a plan serves."""
-    return {node for route in plan.routes for trip in route.trips for node in _served(trip)}
-
-
-def _served(trip: Trip) -> list[int]:
-    return [*(stop.node for stop in trip.customer_stops),
-            *(visit.node for sortie in trip.sorties for visit in sortie.visits)]
+    return Solution(routes, problem.left_out(Solution(routes).served))
 
 
 def settled(problem: Problem, kept: Mapping[Vehicle, Kept]) -> Solution:
@@ -250,11 +240,11 @@ def _joined(begun: Trip, rest: Trip, nodes: Sequence[int], drones: Sequence[int]
 def _numbered(before: Solution, taken: set[Vehicle], routes: Sequence[Route]) -> list[Route]:
     """Return routes with vehicles that are free, those that served most of the same customers."""
     servant = {node: Vehicle(route.vehicle_type, route.vehicle)
-               for route in before.routes for node in _customers(route)}
+               for route in before.routes for node in route.served}
     shared = sorted(
         (-overlap, vehicle.number, index) for index, route in enumerate(routes)
         for vehicle, overlap in Counter(
-            servant[node] for node in _customers(route) if node in servant).items()
+            servant[node] for node in route.served if node in servant).items()
         if vehicle.type == route.vehicle_type)
     chosen: dict[int, Vehicle] = {}
     used = set(taken)
@@ -271,7 +261,3 @@ def _numbered(before: Solution, taken: set[Vehicle], routes: Sequence[Route]) ->
         used.add(vehicle)
         numbered.append(replace(route, vehicle=vehicle.number))
     return numbered
-
-
-def _customers(route: Route) -> set[int]:
-    return {node for trip in route.trips for node in _served(trip)}

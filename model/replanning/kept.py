@@ -5,7 +5,6 @@ from dataclasses import dataclass, replace
 
 from model.judge.energy import charges_at
 from model.judge.past import KnownSortie, KnownStop, KnownTrip, Past, Vehicle
-from model.judge.places import halts
 from model.judge.timing import RouteDecision, TripDecision, read_decision, resume_trip
 from model.problem import MAX_QUANTITY, UNREACHABLE, Problem, VehicleType
 from model.replanning.amend import broken_by, customers_of, repaired, without
@@ -37,7 +36,7 @@ class Kept:
     @property
     def served(self) -> set[int]:
         """Customers who are served in any case."""
-        return {halt.node for trip in self.route.trips for halt in halts(trip)}
+        return {*self.route.served}
 
     @property
     def end(self) -> int:

@@ -35,16 +35,11 @@ def _as_late(problem: Problem, route: Route, now: int) -> Route:
         if known is None:
             break
         if known.rest == "anything" and bound_until(problem, kind, trip, now) > now and all(
-                node >= 0 for node in _nodes(trip)):
+                node >= 0 for node in trip.nodes):
             timed = _resumed(problem, kind, trip, known, now, trips[:index])
             if _is_later(timed, trip):
                 trips[index] = timed
     return replace(route, trips=tuple(trips))
-
-
-def _nodes(trip: Trip) -> list[int]:
-    return [*(stop.node for stop in trip.stops),
-            *(visit.node for sortie in trip.sorties for visit in sortie.visits)]
 
 
 def _resumed(problem: Problem, kind: VehicleType, trip: Trip, known: KnownTrip, now: int,

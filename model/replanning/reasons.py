@@ -6,8 +6,8 @@ import numpy as np
 
 from model.counsel.explain import POSSIBLE, Reason, explain_type
 from model.counsel.remedy import remedy_of
-from model.judge.company import kept_off, who_decides
 from model.judge.past import Past, Vehicle
+from model.judge.relations import kept_off, who_decides
 from model.problem import Problem
 from model.replanning.remainder import Remainder
 from model.replanning.workers import vehicle_name
@@ -27,7 +27,7 @@ def bound_reasons(problem: Problem, vehicle: Vehicle, is_aboard: bool) -> tuple[
         for kind in range(len(problem.vehicle_types)))
 
 
-def company_reason(problem: Problem, past: Past, solution: Solution, kind: int,
+def relation_reason(problem: Problem, past: Past, solution: Solution, kind: int,
                    nodes: tuple[int, ...]) -> Reason | None:
     """Return by which relation no vehicle of a type that is left serves anybody; None if by none.
 
@@ -80,7 +80,7 @@ def barred_reason(problem: Problem, past: Past, left: Remainder, solution: Solut
     columns = [here[place] - first for place in nodes]
     if not nodes or table is None or table[np.ix_(types, columns)].any():
         return None
-    told = company_reason(problem, past, solution, kind, nodes)
+    told = relation_reason(problem, past, solution, kind, nodes)
     if told is None and problem.customer_at(node).goods:
         name = problem.vehicle_types[kind].id
         return Reason(kind, "GOODS", f"Its goods may not join what {name} has carried today.")

@@ -15,8 +15,8 @@ from model.judge.past import Past, Vehicle
 from model.problem import BoolArray, Customer, Depot, FloatArray, Problem, VehicleType
 from model.problem.altered import with_customers
 from model.replanning.amend import customers_of
-from model.replanning.company import company_table, relations_left
 from model.replanning.kept import Kept
+from model.replanning.relations import relations_left, relations_table
 from model.replanning.shares import fairness_left
 from model.replanning.spans import flown_alone, spans_left, with_spans
 from model.replanning.workers import VehicleWorker, from_now_on
@@ -140,7 +140,7 @@ def what_is_left(problem: Problem, past: Past, kept: Mapping[Vehicle, Kept],
         travel=tuple(each.among(np.array(source)) for each in problem.travel),
         may_serve=_table(problem, past, kinds, owners, nodes)
         & _goods_table(problem, kept, kinds, owners, nodes)
-        & company_table(problem, kept, kinds, owners, nodes) & ~flown_alone(free, customers),
+        & relations_table(problem, kept, kinds, owners, nodes) & ~flown_alone(free, customers),
         vehicle_costs=_vehicle_costs(problem, past, kinds, owners, nodes),
         fairness=fairness_left(problem, past, kept, owners))
     return Remainder(left, tuple(source), kinds, owners)

@@ -20,11 +20,11 @@ from model.planner import (
 )
 from model.problem import Problem
 from model.problem.altered import with_customers
-from model.replanning.behind import NewOrder, all_nodes, new_orders, put_behind
 from model.replanning.driven_on import as_it_stands, driven_on, going_through, kept_by
-from model.replanning.handover import hand_over, served_by, settled
+from model.replanning.handover import hand_over, settled
 from model.replanning.kept import Kept, kept_routes
 from model.replanning.late import as_late
+from model.replanning.new_orders import NewOrder, all_nodes, new_orders, put_after
 from model.replanning.order import by_order, orders_of
 from model.replanning.parted import parted_shipments, with_parted
 from model.replanning.reasons import barred_reason, bound_reasons
@@ -181,7 +181,7 @@ class Replanning:
         results = [each.find(planner, since, relaying, handed, first, cost)
                    for each in searches(left, self.past, first, options)]
         if new:
-            known = put_behind(held_back(self.problem, held), Setting(self.past, self.excused),
+            known = put_after(held_back(self.problem, held), Setting(self.past, self.excused),
                                known, new, until)
         return joined(results, known, before.cost.total, filled.whole, began)
 
@@ -210,7 +210,7 @@ class Replanning:
         known = self._cheapest(begun, as_it_stands(self.problem, plan, kept))
         # It takes a while in large plans, and would do no better where nobody is lost, and no
         # truck waits for all its drones before it is planned on.
-        lost = self.problem.all_places(served_by(plan)).intersection(begun[0].unassigned)
+        lost = self.problem.all_places(plan.served).intersection(begun[0].unassigned)
         if lost or _has_flights(self.past):
             known = self._cheapest(known, driven_on(self.problem, plan, kept, self.past))
         return known
@@ -307,9 +307,7 @@ def _past(problem: Problem, terms: Terms) -> Past:
     if terms.now is not None:
         known = known_trips(problem, terms.plan, terms.now, terms.unavailable)
     there = {node: Vehicle(route.vehicle_type, route.vehicle)
-             for route in terms.plan.routes for trip in route.trips
-             for node in (*(stop.node for stop in trip.customer_stops),
-                          *(visit.node for sortie in trip.sorties for visit in sortie.visits))
+             for route in terms.plan.routes for node in route.served
              if node >= 0 and (route.vehicle_type, route.vehicle) not in terms.unavailable}
     pinned = {node: vehicle for node, vehicle in there.items() if node in terms.pinned
               or (terms.concerned is not None and _may_serve(problem, vehicle, node))}

@@ -3,7 +3,7 @@
 from dataclasses import replace
 
 from model.judge.breaks import begin_of, window_of
-from model.judge.driving import driver_behind
+from model.judge.driving import driver_after
 from model.problem import UNLIMITED, Break, DrivingRules, VehicleType
 from model.solution import Route
 
@@ -46,7 +46,7 @@ def _breaks_left(kind: VehicleType, done: Route, home: int) -> tuple[Break, ...]
 
 def _driving_left(kind: VehicleType, rules: DrivingRules, done: Route,
                   home: int) -> DrivingRules | None:
-    driver = driver_behind(rules, kind, done.trips)
+    driver = driver_after(rules, kind, done.trips)
     day = rules.max_driving_per_day
     driven = driver.driven_by(home)
     if day < UNLIMITED:

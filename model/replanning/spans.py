@@ -8,7 +8,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from model.judge.lags import Awaited, halts_of, soonest_behind, starts_across, starts_of
+from model.judge.lags import Awaited, soonest_after, starts_across, starts_of
 from model.judge.past import Vehicle
 from model.judge.timing import RouteDecision
 from model.problem import SINCE_PLAN_START, UNLIMITED, BoolArray, Customer, Problem, Relation
@@ -23,7 +23,7 @@ def spans_left(problem: Problem, now: int, kept: Mapping[Vehicle, Kept],
                nodes: Sequence[int]) -> list[Span | None]:
     """Return from when to when those at nodes may be served; None: no settled one binds them."""
     starts = {node: start for own in kept.values()
-              for node, start in starts_of(halts_of(own.route.trips)).items()}
+              for node, start in starts_of(own.route.visits).items()}
     spans = dict[int, Span]()
 
     def narrow(node: int, soonest: int, latest: int) -> None:
@@ -62,7 +62,7 @@ def awaiting(problem: Problem, decision: RouteDecision, others: Iterable[Route])
     starts = {node: start for route in others
               for node, start in starts_across(problem, route).items()}
     return replace(decision, trips=tuple([replace(trip, awaited=tuple([
-        Awaited(node, max([soonest_behind(problem, node, starts),
+        Awaited(node, max([soonest_after(problem, node, starts),
                            *(each.until for each in trip.awaited if each.node == node)]))
         for node in trip.nodes[1:-1] if node in problem.lags_across]))
         for trip in decision.trips]))

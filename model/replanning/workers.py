@@ -11,7 +11,7 @@ from dataclasses import dataclass, replace
 from operator import le
 from typing import Literal, NamedTuple
 
-from model.judge.chargers import level_behind
+from model.judge.chargers import level_after
 from model.judge.driving import travel_duration
 from model.judge.flown_trips import charged_between
 from model.judge.freshness import first_departure
@@ -288,7 +288,7 @@ def _charge_left(problem: Problem, route: Kept, ready: int) -> tuple[int, ...]:
     """
     kind = problem.vehicle_types[route.vehicle.type]
     if shares_chargers(problem, kind):
-        return (level_behind(problem, kind, route.route.trips, route.charges),)
+        return (level_after(problem, kind, route.route.trips, route.charges),)
     return charged_between(problem, kind, route.route.trips, ready)
 
 

@@ -15,14 +15,11 @@ def driven_by_search(problem: Problem, route: Route) -> Route | None:
 
     None if it finds none.
     """
-    served = [*(stop.node for trip in route.trips for stop in trip.customer_stops),
-              *(visit.node for trip in route.trips for sortie in trip.sorties
-                for visit in sortie.visits)]
     instance = pack([problem], False)
     neighbourhood = make_neighbourhood(problem, instance)
     data = make_data(problem, instance, neighbourhood=neighbourhood)
     found = timed(problem, data, neighbourhood.numbering,
-                  Solution((replace(route, vehicle=0),), problem.left_out(served)))
+                  Solution((replace(route, vehicle=0),), problem.left_out(route.served)))
     if len(found.routes) != 1 or _places(found.routes[0]) != _places(route):
         return None
     return replace(found.routes[0], vehicle=route.vehicle)

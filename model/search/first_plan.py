@@ -30,7 +30,7 @@ def first_plan(problem: Problem, data: ProblemData,
     if not are_alike(data) and not all_fly:
         joined = can_be_linked(data) and from_one_place(data)
         return Solution(tuple(_by_types(problem, data)) if joined else (), everyone)
-    data = _without_company(data)
+    data = _without_goods(data)
     if data.num_types > 1:
         data = data._replace(can=by_nearest(data))
     routes: list[Route] = []
@@ -39,7 +39,7 @@ def first_plan(problem: Problem, data: ProblemData,
     return Solution(tuple(routes), everyone)
 
 
-def _without_company(data: ProblemData) -> ProblemData:
+def _without_goods(data: ProblemData) -> ProblemData:
     """Return data in which nobody may serve who goes together with others."""
     kept = are_kept(data)
     return data._replace(can=data.can & ~kept) if kept.any() else data

@@ -106,7 +106,7 @@ def _plan_prices(problem: Problem) -> PlanPrices:
 
 
 def _can(instance: Instance, halts: Halts) -> BoolArray:
-    """Return (row, 2, node): whom trucks may serve, or where they may halt, and whom drones may."""
+    """Return (row, 2, node): whom trucks may serve, or where they may stop, and whom drones may."""
     can = np.ascontiguousarray(np.stack([instance.can_drive[0], instance.can_fly[0]], axis=1))
     types, depots = halts.halts.shape
     can[:types, 0, :depots] |= halts.halts

@@ -4,7 +4,7 @@ from collections.abc import Callable
 
 from model.problem import Problem
 
-SECONDS_BEHIND, SECONDS_PER_CUSTOMER, SECONDS_WITH_DRONES, SECONDS_PER_REASON = (
+SECONDS_AFTER, SECONDS_PER_CUSTOMER, SECONDS_WITH_DRONES, SECONDS_PER_REASON = (
     0.0025, 2e-5, 4e-5, 2e-6)
 """Kept back for reading a plan, checking it and writing it down: in all, for each customer, where
 drones fly or trips are packed so much more, and for each reason why a type of vehicle doesn't serve
@@ -20,7 +20,7 @@ def usual_reserve(problem: Problem) -> float:
     each = SECONDS_PER_CUSTOMER + SECONDS_PER_REASON * len(problem.vehicle_types)
     if any(kind.drones is not None or kind.flies for kind in problem.vehicle_types):
         each += SECONDS_WITH_DRONES
-    return SECONDS_BEHIND + each * problem.num_customers
+    return SECONDS_AFTER + each * problem.num_customers
 
 
 def more_by_plan(problem: Problem) -> Callable[[int, int], float]:
@@ -28,7 +28,7 @@ def more_by_plan(problem: Problem) -> Callable[[int, int], float]:
     usual = usual_reserve(problem)
 
     def reading(routes: int, sorties: int) -> float:
-        known = (SECONDS_BEHIND + READING_CUSTOMER * problem.num_customers
+        known = (SECONDS_AFTER + READING_CUSTOMER * problem.num_customers
                  + READING_ROUTE * routes + READING_SORTIE * sorties)
         return max(0.0, known - usual)
 

@@ -13,7 +13,7 @@ from model.engine.pausing import EndedError, pausing
 from model.problem import Problem
 from model.search.improve import SearchConfig, improve
 from model.search.regions.part import RegionProblem, part_of
-from model.search.regions.region import Region, Vehicle, customers_of, vehicle_of
+from model.search.regions.region import Region, Vehicle, vehicle_of
 from model.solution import Solution
 from model.together.filling import Filling
 from model.together.joint import Joint
@@ -134,7 +134,7 @@ class Pulling:
         problem = part.problem
         judged = [(route, judge_route(problem, route, "")) for route in found.routes]
         kept = tuple([route for route, verdict in judged if not verdict.violations])
-        served = {node for route in kept for node in customers_of(route)}
+        served = {node for route in kept for node in route.served}
         left_out = [node for node in range(problem.num_depots, problem.num_nodes)
                     if node not in served]
         filling = Filling(problem, Solution(kept, tuple(left_out)), joint, self._should_stop,

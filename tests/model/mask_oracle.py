@@ -21,7 +21,6 @@ from model.judge.timing import Operation
 from model.problem import UNREACHABLE, Problem, VehicleType
 from model.simulation.actions import DRIVE, LAUNCH, NUM_KINDS, OPEN, RETURN
 from model.solution import Route, Solution, Stop, Trip, Visit
-from model.search.regions.region import customers_of
 from tests.model.fliers import without_taken
 from tests.model.open_trip import (
     MOST_TIMED, Flight, OpenTrip, back_at, by_return, cannot_be_flown, drained, drones_of,
@@ -384,7 +383,7 @@ def legal_codes(problem: Problem, vehicle: Vehicle | None, served: set[int], use
         left = problem
         if vehicle is not None:
             route, _ = judge(problem, vehicle, None)
-            left, alone = without_taken(problem, (route,)), companions(problem, customers_of(route))
+            left, alone = without_taken(problem, (route,)), companions(problem, route.served)
             customers = [node for node in customers if node not in alone]
         for kind, vehicle_type in enumerate(problem.vehicle_types):
             if used[kind] < vehicle_type.count and _is_useful(

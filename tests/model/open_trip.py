@@ -9,7 +9,7 @@ from model.judge.energy import (
     charges, hover_energy, leg_energy, power_at, sortie_energy, weights_aboard,
 )
 from model.judge.flown_trips import charged_between, trip_energy
-from model.judge.lags import halts_of, starts_of
+from model.judge.lags import starts_of
 from model.judge.pairs import flown_back, flown_out
 from model.judge.rules import airborne_duration
 from model.judge.takeoff import storm_met
@@ -187,7 +187,7 @@ def preferred(problem: Problem, kind: VehicleType, trip: OpenTrip, node: int,
 
 def keeps_lags(problem: Problem, route: Route) -> bool:
     """Tell whether all on a route are served as long behind others as they should."""
-    starts = starts_of(halts_of(route.trips))
+    starts = starts_of(route.visits)
     return all(lag.least <= start - starts[lag.node] <= lag.most for node, start in starts.items()
                for lag in problem.lags.get(node, ()) if lag.node in starts)
 

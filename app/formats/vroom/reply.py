@@ -74,8 +74,8 @@ class ReplyWriter:
     def _route(self, route: TimedVroomRoute) -> Data:
         vehicle = self._request.vehicles[route.vehicle]
         steps = self._steps(route)
-        setup = sum(halt.setup for halt in route.halts)
-        service = (sum(halt.service for halt in route.halts)
+        setup = sum(step.setup for step in route.steps)
+        service = (sum(step.service for step in route.steps)
                    + sum(rest.duration for rest in route.rests))
         return {
             "vehicle": vehicle.id,
@@ -114,10 +114,10 @@ class ReplyWriter:
         for gap, load in enumerate(loads):
             steps += self._rests(route, gap, load, steps[-1])
             if gap < len(sites):
-                halt = route.halts[gap]
-                task = self._tasks[halt.job]
-                arrival, begin = halt.arrival // TIME_SCALE, halt.start // TIME_SCALE
-                times = (halt.setup // TIME_SCALE, halt.service // TIME_SCALE, begin - arrival)
+                served = route.steps[gap]
+                task = self._tasks[served.job]
+                arrival, begin = served.arrival // TIME_SCALE, served.start // TIME_SCALE
+                times = (served.setup // TIME_SCALE, served.service // TIME_SCALE, begin - arrival)
                 step = self._step(task.kind, sites[gap], loads[gap + 1], arrival, task.stated,
                                   times)
             else:

@@ -21,7 +21,7 @@ from app.maps.roads.server import RoadServer
 from app.schemas.fields import Avoided
 from model.problem import BoolArray, FloatArray
 
-COMPANY = 5
+BESIDE = 5
 """Places named beside those of a block, if need be, so that not all are of one island."""
 
 BYTES_PER_ROUTE = 64 << 20
@@ -122,7 +122,7 @@ class Osrm:
         if unsure.any():
             doubted = [one for one in asked if unsure[one.block.origins].any()
                        or unsure[one.block.destinations].any()]
-            again = [self._asked(lon_lat, one.block, driving, _company(one.block, unsure))
+            again = [self._asked(lon_lat, one.block, driving, _beside(one.block, unsure))
                      for one in doubted]
             answers.update(zip(doubted, self._form(self._asking, again, until, should_stop),
                                strict=True))
@@ -142,8 +142,8 @@ class Osrm:
             most = -(-largest // 2)
 
     def _asked(self, lon_lat: FloatArray, block: Block, driving: Driving,
-               company: Sequence[int] = ()) -> AskedBlock:
-        named = np.unique([*block.origins, *block.destinations, *company])
+               beside: Sequence[int] = ()) -> AskedBlock:
+        named = np.unique([*block.origins, *block.destinations, *beside])
         origins, destinations = (np.searchsorted(named, places)
                                  for places in (block.origins, block.destinations))
         # OSRM makes no table of one place.
@@ -188,7 +188,7 @@ def _stated(driving: Driving) -> str:
     return (f"&exclude={excluded}" if excluded else "") + (f"&approaches={sides}" if sides else "")
 
 
-def _company(block: Block, unsure: BoolArray) -> list[int]:
+def _beside(block: Block, unsure: BoolArray) -> list[int]:
     """Return places to be named beside a block's, those of which we are sure first.
 
     Where all places named lie on one island of the road graph, OSRM puts them on its roads, and
@@ -197,7 +197,7 @@ def _company(block: Block, unsure: BoolArray) -> list[int]:
     others = np.setdiff1d(np.arange(len(unsure)), [*block.origins, *block.destinations])
     sure = others[~unsure[others]]
     chosen = sure if len(sure) else others
-    spread = np.linspace(0, len(chosen) - 1, min(COMPANY, len(chosen))).astype(int)
+    spread = np.linspace(0, len(chosen) - 1, min(BESIDE, len(chosen))).astype(int)
     return chosen[spread].tolist()
 
 

@@ -6,7 +6,6 @@ once it is spent.
 """
 
 from model.problem import Problem
-from model.search.regions.region import customers_of
 from model.solution import Solution
 from model.travel.obstacles import FEW_EDGES
 
@@ -37,7 +36,7 @@ RENUMBERED = 1.3e-8
 
 def replanning_seconds(problem: Problem, plan: Solution) -> float:
     """Estimate what going on from a plan takes beside legs and search."""
-    served = sum(1 for route in plan.routes for _ in customers_of(route))
+    served = sum(len(route.served) for route in plan.routes)
     tables = sum(travel.straight is None for travel in problem.travel)
     return (REPLANNED_ROUTE * len(plan.routes) + REPLANNED_CUSTOMER * served
             + RENUMBERED * tables * problem.num_nodes**2)

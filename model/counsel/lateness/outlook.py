@@ -78,7 +78,7 @@ def _told(problem: Problem, met: Sequence[Encounter]) -> list[Expectation]:
     if not met:
         return []
     starts = np.stack([each.starts[1:] for each in met])
-    closes = [closing(problem.customer_at(each.halt.node), each.halt.service_start)
+    closes = [closing(problem.customer_at(each.visit.node), each.visit.service_start)
               for each in met]
     late = starts - np.array(closes, float)[:, None]
     chances = np.count_nonzero(late > 0, axis=1) / DAYS

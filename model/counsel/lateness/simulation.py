@@ -22,7 +22,7 @@ from model.solution import Route, Sortie, Stop, Trip, Visit
 class Encounter:
     """A customer on all days: when whoever serves him comes, and begins."""
 
-    halt: Stop | Visit
+    visit: Stop | Visit
     arrivals: Times
     starts: Times
 

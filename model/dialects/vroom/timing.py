@@ -55,7 +55,7 @@ def _nearest(value: float) -> int:
 
 
 @dataclass(frozen=True)
-class Halt:
+class JobStep:
     """A job as it is served."""
 
     job: int  # index into the request's jobs
@@ -71,9 +71,9 @@ class TimedVroomRoute:
 
     vehicle: int  # index into the request's vehicles
     departure: int
-    halts: tuple[Halt, ...]
+    steps: tuple[JobStep, ...]
     end: int
-    travels: tuple[int, ...]  # (halt and end,) duration of the legs so far
+    travels: tuple[int, ...]  # (step and end,) duration of the legs so far
     distances: tuple[int, ...]  # likewise
     travel_cost: int
     cost: int  # of travel, of setup and service, and for being used
@@ -82,7 +82,7 @@ class TimedVroomRoute:
     @property
     def jobs(self) -> tuple[int, ...]:
         """Indices of the jobs served, in order."""
-        return tuple(halt.job for halt in self.halts)
+        return tuple(step.job for step in self.steps)
 
 
 @dataclass(frozen=True)
@@ -182,7 +182,7 @@ class RouteTimer:
         All starts as soon as it may, or by `times`.
         """
         way = path.way
-        time, over, halts, rests = departure, 0, list[Halt](), list[VroomRest]()
+        time, over, steps, rests = departure, 0, list[JobStep](), list[VroomRest]()
         for gap, count in enumerate(counts):
             arrival, taken = way.drive(gap, time, range(over, count),
                                        () if times is None else times.rests)
@@ -191,11 +191,11 @@ class RouteTimer:
             if gap < len(path.jobs):
                 start = (start_in(arrival, way.slots[gap]) if times is None
                          else times.nodes[gap + 1])
-                halts.append(Halt(path.jobs[gap], arrival, start, *path.actions[gap]))
+                steps.append(JobStep(path.jobs[gap], arrival, start, *path.actions[gap]))
                 time = start + way.actions[gap]
         tasks = sum(way.actions) + sum([pause.duration for pause in way.pauses])
         cost = self.rates.fixed_cost + path.travel_cost + self.rates.task_cost * tasks
-        return TimedVroomRoute(self.vehicle, departure, tuple(halts), time,
+        return TimedVroomRoute(self.vehicle, departure, tuple(steps), time,
                                tuple(accumulate(way.times)), tuple(accumulate(path.metres)),
                                path.travel_cost, cost, tuple(rests))
 

@@ -6,7 +6,7 @@ from itertools import islice
 import numpy as np
 
 from model.problem import FloatArray, IntArray, Problem
-from model.search.regions.region import Region, Vehicle, customers_of, vehicle_of
+from model.search.regions.region import Region, Vehicle, vehicle_of
 from model.solution import Solution
 
 ROWS = 1024
@@ -20,7 +20,7 @@ def divide(problem: Problem, plan: Solution, count: int,
     Each route is in one region. Who is left out belongs where the nearest route is, and vehicles
     without a route are dealt out anew each time, the first to where most are left out.
     """
-    customers = [list(customers_of(route)) for route in plan.routes]
+    customers = [route.served for route in plan.routes]
     weight = np.array([len(each) for each in customers])
     count = min(count, int(np.count_nonzero(weight)))
     if count == 0:
@@ -37,7 +37,7 @@ def divide(problem: Problem, plan: Solution, count: int,
     for each in problem.shipments:
         if each.pickup in heir_of:
             heir_of |= dict.fromkeys(each.nodes, heir_of[each.pickup])
-    _gather_company(problem, plan, owner, heir_of)
+    _gather_related(problem, plan, owner, heir_of)
     for node, heir in heir_of.items():
         left_out[heir].append(node)
     size = np.bincount(owner, weight, minlength=count) + [len(each) for each in left_out]
@@ -48,13 +48,13 @@ def divide(problem: Problem, plan: Solution, count: int,
         for number in range(count) if size[number])
 
 
-def _gather_company(problem: Problem, plan: Solution, owner: IntArray,
+def _gather_related(problem: Problem, plan: Solution, owner: IntArray,
                     heir_of: dict[int, int]) -> None:
     """Let who is left out be in the region of those with whom they go. In place."""
     if not problem.keeps_together:
         return
     region = {node: int(owner[index]) for index, route in enumerate(plan.routes)
-              for node in customers_of(route)}
+              for node in route.served}
     for each in problem.relations:
         if each.keeps_together:
             served = [region[node] for node in each.nodes if node in region]

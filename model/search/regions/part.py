@@ -8,7 +8,7 @@ import numpy as np
 
 from model.problem import Depot, Problem
 from model.search.beginning.stock import batteries_taken
-from model.search.regions.region import Region, Vehicle, customers_of
+from model.search.regions.region import Region, Vehicle
 from model.solution import Solution, renumbered
 
 
@@ -50,7 +50,7 @@ def part_of(problem: Problem, region: Region) -> RegionProblem:
         If it has no customers or no vehicles.
     """
     first = problem.num_depots
-    served = [node for route in region.plan.routes for node in customers_of(route)]
+    served = region.plan.served
     customers = sorted((*served, *region.plan.unassigned))
     if problem.choices:
         customers = sorted({place for node in customers for place in problem.places_of(node)})

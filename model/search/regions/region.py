@@ -1,6 +1,5 @@
 """Regions of a plan, and what comes back of them."""
 
-from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
 from model.solution import Route, Solution
@@ -25,16 +24,6 @@ class Region:
 def vehicle_of(route: Route) -> Vehicle:
     """Return the vehicle that drives a route."""
     return route.vehicle_type, route.vehicle
-
-
-def customers_of(route: Route) -> Iterator[int]:
-    """Yield the customers that a route serves."""
-    for trip in route.trips:
-        for stop in trip.customer_stops:
-            yield stop.node
-        for sortie in trip.sorties:
-            for visit in sortie.visits:
-                yield visit.node
 
 
 def put_back(whole: Solution, region: Region, found: Solution) -> Solution | None:

@@ -45,6 +45,6 @@ class ProblemData(Struct):
 
 def are_kept(data: ProblemData) -> BoolArray:
     """Mark the nodes (none where nobody is) of customers who go together with others."""
-    company = data.goods
-    kept: BoolArray = (company["kept_on_trip"] | company["kept_on_vehicle"]) != 0
+    goods = data.goods
+    kept: BoolArray = (goods["kept_on_trip"] | goods["kept_on_vehicle"]) != 0
     return kept

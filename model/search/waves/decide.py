@@ -23,7 +23,6 @@ import numpy as np
 from model.engine.instance import pack
 from model.problem import FloatArray, Problem
 from model.search.improve import SearchConfig, improve
-from model.search.regions.region import customers_of
 from model.search.waves.detours import detours
 from model.search.waves.future import Forecast, Wave, future_of
 from model.solution import Solution, renumbered
@@ -140,13 +139,9 @@ def _look(wave: Wave, forecast: Forecast, config: WaveConfig, number: int,
     plan = plan_future(future.problem, config, config.turns, number, due - time.perf_counter())
     routes = [route for route in plan.routes if route.vehicle_type in future.later_types]
     leaves = {node: future.departure_of(route.vehicle_type) for route in plan.routes
-              for node in customers_of(route)}
+              for node in route.served}
     return _Seen(detours(future, routes, future.later_types),
                  {future.node_of(node): leaves[node] for node in future.open if node in leaves})
-
-
-def _served(plan: Solution) -> frozenset[int]:
-    return frozenset([node for route in plan.routes for node in customers_of(route)])
 
 
 def _prices(wave: Wave, seen: Sequence[_Seen], config: WaveConfig) -> dict[int, float]:
@@ -194,7 +189,7 @@ def _outlooks(wave: Wave, must: Set[int], plan: Solution, prices: Mapping[int, f
     here = {node: index for index, node in zip(whole.open, wave.open, strict=True)}
     routes = renumbered(plan, lambda node: here.get(node, node)).routes
     costs_now = detours(whole, routes, range(wave.num_types)).tolist()
-    gone = _served(plan)
+    gone = plan.served
     found = []
     for node, cost in zip(wave.open, costs_now, strict=True):
         departures = Counter([each.departures[node] for each in seen if node in each.departures])

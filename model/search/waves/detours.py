@@ -91,9 +91,7 @@ class _Along:
         """Yield the legs of a trip."""
         kind, at = self.kind, [stop.node for stop in trip.stops]
         stops = [self._window(node) for node in at[1:-1]]
-        aboard = [self._order(node) for node in (
-            *(stop.node for stop in trip.customer_stops),
-            *(node for sortie in trip.sorties for node in sortie.nodes))]
+        aboard = [self._order(node) for node in trip.served]
         room = tuple([most - sum(each.demand[dimension] for each in aboard)
                       for dimension, most in enumerate(kind.capacity)])
         leaves, latest = [kind.earliest], [kind.latest]

@@ -13,7 +13,6 @@ from model.counsel.fitting import find_fits, new_violations
 from model.counsel.group_moves import companions_to
 from model.judge.check import check
 from model.judge.past import EVERYTHING_OPEN, Vehicle
-from model.judge.places import halts
 from model.judge.retiming import time_route
 from model.problem import Customer, Depot, Problem, Travel, VehicleType
 from model.solution import Solution
@@ -25,8 +24,8 @@ MINUTE, KM = 60_000, 1_000_000
 
 
 def served_by(solution: Solution) -> dict[int, Vehicle]:
-    return {halt.node: Vehicle(route.vehicle_type, route.vehicle)
-            for route in solution.routes for trip in route.trips for halt in halts(trip)}
+    return {node: Vehicle(route.vehicle_type, route.vehicle)
+            for route in solution.routes for node in route.served}
 
 
 def leave_out(problem: Problem, solution: Solution, nodes: Iterable[int]) -> Solution:

@@ -163,7 +163,7 @@ def all_rules_vehicle_costs(rng: np.random.Generator) -> Problem:
     return with_vehicle_costs(rng, all_rules(rng))
 
 
-def all_rules_in_company(rng: np.random.Generator) -> Problem:
+def all_rules_in_relation(rng: np.random.Generator) -> Problem:
     problem = with_relations(rng, all_rules(rng))
     return with_goods(rng, problem) if rng.random() < 0.2 else problem
 

@@ -17,7 +17,7 @@ from model.solution import Solution
 from tests.model.search.mixed_rules import (
     all_rules, all_rules_at_once, all_rules_begun, all_rules_both_ways, all_rules_drone_types,
     all_rules_elsewhere, all_rules_few_airborne, all_rules_few_at_hubs, all_rules_few_launch_places,
-    all_rules_fliers, all_rules_goods_apart, all_rules_in_company, all_rules_in_order,
+    all_rules_fliers, all_rules_goods_apart, all_rules_in_relation, all_rules_in_order,
     all_rules_in_closed_zones, all_rules_in_range, all_rules_in_storms, all_rules_launch_sites,
     all_rules_limits_aboard, all_rules_of_duty, all_rules_on_batteries, all_rules_open,
     all_rules_open_reloading, all_rules_own_durations, all_rules_reloading, all_rules_revisits,
@@ -382,7 +382,7 @@ def test_search_finds_the_cheapest_plan_from_place_to_place(
     all_rules_setups, all_rules_shipments, all_rules_limits_aboard, all_rules_at_once,
     all_rules_swapping, all_rules_in_range, all_rules_few_airborne, all_rules_few_launch_places,
     all_rules_fliers, all_rules_few_at_hubs, all_rules_in_storms, all_rules_in_closed_zones,
-    all_rules_launch_sites, all_rules_revisits, all_rules_vehicle_costs, all_rules_in_company,
+    all_rules_launch_sites, all_rules_revisits, all_rules_vehicle_costs, all_rules_in_relation,
     all_rules_several_places, all_rules_in_order],
     ids=lambda draw: draw.__name__)
 def test_search_finds_the_cheapest_plan_whatever_else_is_stated(

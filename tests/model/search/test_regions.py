@@ -11,7 +11,7 @@ from model.planner import Planner, PlanOptions
 from model.problem import Problem
 from model.search.regions.dividing import divide
 from model.search.regions.part import part_of
-from model.search.regions.region import Region, customers_of, put_back, vehicle_of
+from model.search.regions.region import Region, put_back, vehicle_of
 from model.solution import Solution
 from tests.model.street import NO_POLICY
 from tests.model.tiny import (
@@ -50,7 +50,7 @@ def planned(problem: Problem, keep: int | None = None) -> Solution:
     """Return a plan, of its first routes alone if so many are to be kept."""
     plan = PLANNER.plan(problem, OPTIONS, start=nobody(problem)).solution
     routes = plan.routes if keep is None else plan.routes[:keep]
-    served = {node for route in routes for node in customers_of(route)}
+    served = {node for route in routes for node in route.served}
     return Solution(routes, tuple(node for node in range(problem.num_depots, problem.num_nodes)
                                   if node not in served))
 
@@ -125,10 +125,10 @@ def test_borders_are_others_each_time() -> None:
 def test_regions_are_of_about_one_size() -> None:
     problem = generate(np.random.default_rng(3), 120, "cvrp")
     plan = planned(problem)
-    routes = [list(customers_of(route)) for route in plan.routes]
+    routes = [route.served for route in plan.routes]
     for seed in range(5):
         regions = divide(problem, plan, 3, np.random.default_rng(seed))
-        sizes = [sum(len(list(customers_of(route))) for route in region.plan.routes)
+        sizes = [sum(len(route.served) for route in region.plan.routes)
                  for region in regions]
         assert max(sizes) - min(sizes) <= 2 * max(map(len, routes))
 

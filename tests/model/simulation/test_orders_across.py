@@ -7,9 +7,8 @@ import pytest
 
 from model.engine.instance import pack
 from model.judge.check import check
-from model.judge.company import who_waits
+from model.judge.relations import who_waits
 from model.problem import Problem
-from model.search.regions.region import customers_of
 from model.simulation.actions import NUM_KINDS, OPEN
 from model.policy.extract import extract
 from tests.model.mask_oracle import legal_codes
@@ -24,7 +23,7 @@ pytestmark = pytest.mark.slow
 def legal_behind(problem: Problem, position: Position, closed: int) -> tuple[set[int], bool]:
     """Return what is legal behind what vehicles do by so many actions, and whether that binds."""
     plan, own = extract(problem, pack([problem]), position.actions[:closed]), problem
-    served = [node for route in position.closed for node in customers_of(route)]
+    served = [node for route in position.closed for node in route.served]
     gone = position.served | companions(problem, served)
     for node in sorted(problem.lags_across.keys() - position.served):
         _, bound = who_waits(own, plan, node)

@@ -13,7 +13,6 @@ from model.problem import UNLIMITED, Customer, Depot, DroneType, Problem, Travel
 from model.simulation.actions import (
     DRIVE, LAUNCH, NUM_KINDS, OPEN, RETURN, apply, encode_action, reset,
 )
-from model.search.regions.region import customers_of
 from model.policy.extract import extract
 from model.solution import Route
 from tests.model.mask_oracle import MINUTE, Vehicle, after, judge, legal_codes
@@ -286,7 +285,7 @@ def test_shipments_are_picked_up_exactly_if_they_can_be_delivered(change: Change
 def assert_exact(problem: Problem, rng: np.random.Generator, seed: int) -> None:
     """Compare the mask with the oracle's along a random rollout, and another with the checker."""
     for codes, position in walk(problem, rng):
-        gone = [node for route in position.closed for node in customers_of(route)]
+        gone = [node for route in position.closed for node in route.served]
         expected = list(legal_codes(without_taken(problem, position.closed), position.vehicle,
                                     position.served | companions(problem, gone), position.used))
         assert sorted(codes) == sorted(expected), f"seed {seed}"

@@ -2,16 +2,17 @@
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
+from itertools import chain
 
-from model.judge.lags import halts_of, starts_across, starts_of
+from model.judge.lags import starts_across, starts_of
 from model.judge.past import Vehicle
 from model.judge.rules import TimedTrip, Violation, seconds
 from model.problem import MAX_QUANTITY, SINCE_PLAN_START, UNLIMITED, Lag, Problem, Relation
 from model.problem.altered import with_customers
-from model.solution import Route, Solution
+from model.solution import Solution
 
 
-def route_company(problem: Problem, trips: Sequence[TimedTrip], path: str) -> Iterator[Violation]:
+def route_relations(problem: Problem, trips: Sequence[TimedTrip], path: str) -> Iterator[Violation]:
     """Relations that a route doesn't keep, each once."""
     if not problem.relations:
         return
@@ -28,7 +29,7 @@ def route_company(problem: Problem, trips: Sequence[TimedTrip], path: str) -> It
     yield from _lag_violations(problem, trips, path)
 
 
-def plan_company(problem: Problem, served: Sequence[Sequence[int]]) -> Iterator[Violation]:
+def plan_relations(problem: Problem, served: Sequence[Sequence[int]]) -> Iterator[Violation]:
     """Relations that routes break together, by whom each of them serves."""
     for relation in problem.relations:
         if not relation.keeps_together:
@@ -60,7 +61,7 @@ def plan_orders(problem: Problem, starts: Sequence[Mapping[int, int]]) -> Iterat
 
 def _lag_violations(problem: Problem, trips: Sequence[TimedTrip], path: str) -> Iterator[Violation]:
     """Orders and lags that a vehicle doesn't keep."""
-    starts = starts_of(halts_of([timed.trip for timed in trips]))
+    starts = starts_of(chain.from_iterable([timed.trip.visits for timed in trips]))
     for node, start in starts.items():
         for lag in problem.lags.get(node, ()):
             after = start - starts.get(lag.node, start - lag.least)
@@ -106,7 +107,7 @@ def who_decides(problem: Problem, solution: Solution, node: int) -> tuple[str, V
         if not relation.keeps_together or node not in relation.nodes:
             continue
         for route in solution.routes:
-            there = [other for other in relation.nodes if other in _served(route)]
+            there = [other for other in relation.nodes if other in route.served]
             if there:
                 names = " and ".join(problem.customer_at(other).id for other in there)
                 return names, Vehicle(route.vehicle_type, route.vehicle)
@@ -149,16 +150,8 @@ def kept_off(problem: Problem, solution: Solution, kind: int, node: int) -> dict
         if relation.kind != "apart" or relation.scope == "trip" or node not in relation.nodes:
             continue
         for route in solution.routes:
-            there = [other for other in relation.nodes if other in _served(route)]
+            there = [other for other in relation.nodes if other in route.served]
             if there and route.vehicle_type == kind:
                 name = problem.customer_at(there[0]).id
                 found.setdefault(Vehicle(kind, route.vehicle), name)
     return found
-
-
-def _served(route: Route) -> frozenset[int]:
-    """Return whom a route serves."""
-    trips = route.trips
-    return frozenset([
-        *(stop.node for trip in trips for stop in trip.customer_stops),
-        *(visit.node for trip in trips for sortie in trip.sorties for visit in sortie.visits)])

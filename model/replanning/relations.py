@@ -37,7 +37,7 @@ def relations_left(problem: Problem, owners: Mapping[int, VehicleWorker],
     return tuple(dict.fromkeys(found))
 
 
-def company_table(problem: Problem, kept: Mapping[Vehicle, Kept], kinds: Sequence[int],
+def relations_table(problem: Problem, kept: Mapping[Vehicle, Kept], kinds: Sequence[int],
                   owners: Mapping[int, VehicleWorker], nodes: Sequence[int]) -> BoolArray:
     """Return (type, customer) whom relations let each vehicle serve, by who is settled."""
     table = np.ones((len(kinds), len(nodes)), np.bool_)
@@ -88,7 +88,7 @@ def _keep_by_carriers(problem: Problem, relation: Relation, kept: Mapping[Vehicl
             table[kind] &= [node not in those or node in laden for node in nodes]
 
 
-def in_company(problem: Problem, decisions: Sequence[RouteDecision]) -> list[RouteDecision]:
+def in_relation(problem: Problem, decisions: Sequence[RouteDecision]) -> list[RouteDecision]:
     """Return routes without those who go with others of a route before."""
     if not problem.keeps_together:
         return list(decisions)

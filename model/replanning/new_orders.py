@@ -40,7 +40,7 @@ def new_orders(problem: Problem, past: Past) -> list[NewOrder]:
     return sorted(found, key=lambda order: (order.latest, order.nodes))
 
 
-def put_behind(problem: Problem, setting: Setting, known: tuple[Solution, Evaluation],
+def put_after(problem: Problem, setting: Setting, known: tuple[Solution, Evaluation],
                orders: Sequence[NewOrder], until: float) -> tuple[Solution, Evaluation]:
     """Return a plan with new orders where they cost least, those left out for which that is dearer.
 

@@ -3,7 +3,7 @@ from dataclasses import replace
 import pytest
 
 from model.judge.check import check
-from model.judge.company import who_waits
+from model.judge.relations import who_waits
 from model.judge.timing import RouteDecision, TripDecision, schedule
 from model.problem import MAX_QUANTITY, UNLIMITED, Relation
 from model.solution import Solution
