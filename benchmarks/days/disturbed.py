@@ -1,6 +1,6 @@
 """What it is worth to plan a day anew as it is disturbed.
 
-    python -m benchmarks.days.disturbed --seeds 20
+    python -m benchmarks.days.disturbed --seeds 20 --picture docs/develop/disturbed.svg
 
 Days of a city are drawn: half of the orders come in on the way, ways and services last longer or
 shorter than planned, some orders are cancelled, and on half of the days a van breaks down. Each is
@@ -13,7 +13,6 @@ plans a driver saw another order of stops ahead.
 
 import argparse
 import random
-import statistics
 import tempfile
 import time
 from collections.abc import Iterator
@@ -36,6 +35,7 @@ from app.records.dispatches.store import DispatchStore
 from app.requests.bounds import Bounds
 from app.serving.load.received import ReceivedBody
 from app.serving.settings import Settings
+from benchmarks.days.disturbed_report import draw, table
 from model.planner import load_planner
 
 Data = dict[str, Any]
@@ -353,13 +353,14 @@ def hindsight(dispatcher: Dispatcher, day: Drawn, turns: int) -> Data:
 
 
 def main() -> None:
-    """Live days and print a table."""
+    """Live days, print a table, and draw it."""
     parser = argparse.ArgumentParser(description=__doc__.partition("\n")[0])
     parser.add_argument("--seeds", type=int, default=20)
     parser.add_argument("--first", type=int, default=0, help="the first seed")
     parser.add_argument("--orders", type=int, default=40)
     parser.add_argument("--vans", type=int, default=5)
     parser.add_argument("--hindsight", type=int, default=20_000, help="turns of its search")
+    parser.add_argument("--picture", type=Path, help="file for an SVG of all days")
     options = parser.parse_args()
     found: dict[str, list[Data]] = {}
     with tempfile.TemporaryDirectory() as folder:
@@ -374,21 +375,8 @@ def main() -> None:
                   flush=True)
         dispatcher.close()
     print(table(found))
-
-
-def table(found: dict[str, list[Data]]) -> str:
-    """Return means of all days in Markdown, costs by hindsight's for each order served."""
-    lines = ["| planned anew | cost | cost an order served | served, % | promises kept, % "
-             "| changes a driver |", "| --- | ---: | ---: | ---: | ---: | ---: |"]
-    for name, days in found.items():
-        wanted, served = (sum(each[what] for each in days) for what in ("wanted", "served"))
-        lines.append(
-            f"| {name} | {statistics.fmean(each['cost'] for each in days):.0f} "
-            f"| {sum(each['cost'] for each in days) / served:.2f} "
-            f"| {100 * served / wanted:.1f} "
-            f"| {100 * sum(each['kept'] for each in days) / wanted:.1f} "
-            f"| {statistics.fmean(each['changes'] for each in days):.1f} |")
-    return "\n".join(lines)
+    if options.picture is not None:
+        draw(found, options.picture)
 
 
 if __name__ == "__main__":

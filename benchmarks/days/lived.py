@@ -17,9 +17,12 @@ import sys
 import tempfile
 import threading
 import time
+import zlib
 from collections.abc import Iterator
+from concurrent.futures import ProcessPoolExecutor
 from contextlib import ExitStack
 from dataclasses import dataclass, field
+from functools import partial
 from itertools import pairwise
 from pathlib import Path
 from typing import Any
@@ -46,6 +49,9 @@ STOP = 120.0
 
 STEP = 0.1
 """Seconds between two looks at the world."""
+
+JUDGES = 2
+"""Processes that judge plans at the end."""
 
 AWAY = 3.0
 """Seconds for which the database is away."""
@@ -196,7 +202,7 @@ class Seen:
 
     sent: list[tuple[float, int]] = field(default_factory=list)  # when, and the last's number
     accepted: dict[str, int] = field(default_factory=dict)
-    plans: list[Data] = field(default_factory=list)
+    plans: list[bytes] = field(default_factory=list)  # compressed: there are hundreds
     away: list[tuple[float, float]] = field(default_factory=list)  # from when to when
 
 
@@ -212,7 +218,7 @@ def lived(service: Service, server: Server | None, options: argparse.Namespace) 
     troubles = sorted((rng.uniform(0.02, 0.98), kind) for kind, count in (
         ("kill", options.kills), ("away", options.away)) for _ in range(count))
     now, began = BEGIN - 60, time.monotonic()
-    plans = 0
+    plans, plan = 0, None
     while now < END + 1800:
         now = BEGIN - 60 + (time.monotonic() - began) * options.speed
         if troubles and now > BEGIN + troubles[0][0] * (END - BEGIN):
@@ -220,8 +226,10 @@ def lived(service: Service, server: Server | None, options: argparse.Namespace) 
             began += _trouble(troubles.pop(0)[1], service, server, seen)
         if len(follower.planned) > plans:
             plans = len(follower.planned)
-            seen.plans.append(_asked(service, "GET", f"/days/{day}/plan").json())
-        events = list(world.events(now, seen.plans[-1]["plan"] if seen.plans else None))
+            content = _asked(service, "GET", f"/days/{day}/plan").content
+            seen.plans.append(zlib.compress(content, 1))
+            plan = json.loads(content)["plan"]
+        events = list(world.events(now, plan))
         if events:
             reply = _asked(service, "POST", f"/days/{day}/events", json=events)
             reply.raise_for_status()
@@ -273,9 +281,9 @@ def _outcome(service: Service, day: str, problem: Data, world: World, follower: 
     service.kill()
     service.start()
     counts = follower.ids
-    plans = {each["number"]: each["plan"] for each in seen.plans}
-    broken = [_broken(problem, world, plan, follower.times[number])
-              for number, plan in plans.items() if number in follower.times]
+    rules = partial(_broken, problem, world.orders, follower.times)
+    with ProcessPoolExecutor(JUDGES) as judges:
+        broken = [each for each in judges.map(rules, seen.plans) if each is not None]
     return {
         "orders": len(world.orders), "events": world.told, "plans": state["plan_number"],
         "served": len(world.done), "windows kept": world.kept,
@@ -316,11 +324,19 @@ def _as_it_stands(service: Service, day: str) -> list[bytes]:
             for path in ("", "/plan", "/problem")]
 
 
-def _broken(problem: Data, world: World, plan: Data, now: float) -> list[str]:
-    """Return the rules that a plan breaks by what is yet to come, what has happened being given."""
+def _broken(problem: Data, known: Data, times: dict[int, float],
+            packed: bytes) -> list[str] | None:
+    """Return the rules that a plan breaks by what is yet to come, what has happened being given.
+
+    None: nobody told when it was made.
+    """
+    made = json.loads(zlib.decompress(packed))
+    plan, now = made["plan"], times.get(made["number"])
+    if now is None:
+        return None
     names = [stop["id"] for route in plan["routes"] for trip in route["trips"]
              for stop in trip["stops"] if stop["kind"] == "customer"]
-    orders = [world.orders[name] for name in (*names, *(
+    orders = [known[name] for name in (*names, *(
         each["id"] for each in plan["unassigned"]))]
     given = {"routes": plan["routes"], "unassigned": plan["unassigned"]}
     verdict = json.loads(answer_check(json.dumps({
