@@ -12,12 +12,13 @@ from sqlalchemy import Engine
 from app.records.clock import now_ms
 from app.records.days.fold import ToldDay, fold, visits
 from app.records.days.news import served_orders
-from app.records.days.rows import Begun, DayRow, LoggedEvent
+from app.records.days.rows import Begun, LoggedEvent
 from app.records.days.schemas import CustomerLink, ToldArrival, VisitState, VisitStatusReply
 from app.records.days.spreads import chance_of
 from app.records.days.store import DayStore
 from app.records.dispatches.errors import LinkOverError, UnknownVehicleLinkError
 from app.records.dispatches.instants import instant
+from app.records.dispatches.rows import DayRow
 from app.records.dispatches.store import DispatchStore
 from app.requests.plan_reading import parse_plan
 from app.schemas.plan import PlanInput, StopInput

@@ -57,12 +57,18 @@ class OrderCancelled(DayEvent):
 
 
 class OrderPinned(DayEvent):
-    """A dispatcher settles by hand who serves an order; `undone`: planning decides again."""
+    """A dispatcher settles by hand who serves an order, or that nobody does.
+
+    `undone`: planning decides again.
+    """
 
     kind: Literal["order.pinned"] = Field(description=KIND)
     order: Name = Field(description="Id of the customer or the shipment.")
     vehicle: Name | None = Field(
-        None, description="Who serves it, in all plans to come. Stated unless `undone`.")
+        None, description="Who serves it, in all plans to come.")
+    left_out: bool = Field(
+        False, description="Nobody serves it; who is on the way does. Stated are this, `vehicle` "
+        "or `undone`.")
     after: Name | None = Field(
         None, description="Id of a customer whom the same vehicle serves before, somewhere; of "
         "customers alone. Null: wherever it fits best.")
@@ -71,9 +77,13 @@ class OrderPinned(DayEvent):
     @model_validator(mode="after")
     def _is_whole(self) -> Self:
         """Refuse what settles nothing."""
-        if self.vehicle is None and not self.undone:
+        if self.vehicle is None and not self.undone and not self.left_out:
             raise PydanticCustomError(
-                "MISSING_FIELD", "No vehicle is stated: name one, or say `undone`.")
+                "MISSING_FIELD", "No vehicle is stated: name one, or say `left_out` or `undone`.")
+        if self.left_out and (self.vehicle, self.after) != (None, None):
+            raise PydanticCustomError(
+                "OUT_OF_RANGE", "Who is left out has no vehicle, and comes after nobody: leave "
+                "these out.")
         if self.after == self.order:
             raise PydanticCustomError(
                 "OUT_OF_RANGE", "It can't be served after itself: name another in `after`.")

@@ -40,7 +40,7 @@ NO_PACE = Pace()
 class Pin(NamedTuple):
     """Who serves an order, as its dispatcher settled by hand."""
 
-    vehicle: str
+    vehicle: str | None  # None: nobody does
     after: str | None = None  # an order that the vehicle serves before
 
 
@@ -76,6 +76,12 @@ class ToldDay:
         """Vehicles and drones that do nothing more."""
         broken = [vehicle for vehicle, standing in self.standings.items() if is_broken(standing)]
         return [*broken, *sorted(self.lost)]
+
+    @property
+    def gone(self) -> set[str]:
+        """Orders that plans lack: cancelled, served by another than planned, left out by hand."""
+        by_hand = [order for order, pin in self.pins.items() if pin.vehicle is None]
+        return {*self.cancelled, *self.elsewhere, *by_hand}
 
     def count(self, vehicle: str) -> tuple[int, int]:
         """Return how many steps of a vehicle were told to be done, and to have failed."""
@@ -168,7 +174,7 @@ def _state(told: ToldDay, about: Mapping[str, Any]) -> None:
 
 def _pin(told: ToldDay, order: str, vehicle: str | None, about: Mapping[str, Any]) -> None:
     told.pins.pop(order, None)
-    if vehicle is None or about.get("undone"):
+    if vehicle is None and not about.get("left_out"):
         return
     told.pins[order] = Pin(vehicle, about.get("after"))
     # Of pins in a circle the last counts.

@@ -10,8 +10,9 @@ from collections.abc import Sequence
 from typing import NamedTuple
 
 from app.records.days.fold import ToldDay, fold, fold_on
-from app.records.days.rows import Begun, DayRow, LoggedEvent
+from app.records.days.rows import Begun, LoggedEvent
 from app.records.days.store import DayStore
+from app.records.dispatches.rows import DayRow
 
 MOST = 64
 """Days that are remembered."""

@@ -4,28 +4,53 @@ Who serves an order is stated as the `vehicles` that may, and behind whom as one
 `relations`. What has happened stays: who is on the way already is nobody else's.
 """
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Collection, Iterable, Iterator, Mapping
 from typing import Any
 
+from app.records.days.events import AnyEvent, OrderPinned
 from app.records.days.fold import Data, Pin, ToldDay, visits
+from app.schemas.errors import InputError
 from app.schemas.plan import PlanInput
 from model.problem import MOST_RELATIONS
 
 
-def pinned(request: Mapping[str, Any], told: ToldDay, plan: PlanInput, now: float) -> Data:
-    """Return a request for the plan after one by which orders are where they were pinned."""
+def pinned(request: Mapping[str, Any], told: ToldDay, plan: PlanInput, now: float,
+           served: Collection[str]) -> Data:
+    """Return a request for the plan after one by which orders are where they were pinned.
+
+    Of those who were `served` nobody else is behind any more.
+    """
     begun = dict(_begun(plan, now))
     pins = {order: pin for order, pin in told.pins.items()
-            if begun.get(order, pin.vehicle) == pin.vehicle}
+            if pin.vehicle is not None and begun.get(order, pin.vehicle) == pin.vehicle}
     names = {each["id"] for each in request["customers"]}
     behind = [{"kind": "before", "customers": [pin.after, order]} for order, pin in pins.items()
-              if pin.after is not None and order in names and pin.after in names
+              if pin.after is not None and order not in served
+              and order in names and pin.after in names
               and _who(pin.after, pins, begun) in (None, pin.vehicle)]
-    stated = request.get("relations") or []
-    room = MOST_RELATIONS - sum(each["kind"] != "apart" for each in stated)
     held = {kind: [_bound(each, pins) for each in request[kind]]
             for kind in ("customers", "shipments")}
-    return {**request, **held, "relations": [*stated, *behind[max(0, len(behind) - room):]]}
+    return {**request, **held, "relations": [*(request.get("relations") or ()), *behind]}
+
+
+def too_many(problem: Mapping[str, Any], told: ToldDay, served: Collection[str],
+             events: Iterable[tuple[int, AnyEvent]]) -> Iterator[InputError]:
+    """Yield an error for each event that pins an order behind another where no plan holds more."""
+    room = MOST_RELATIONS - sum(
+        each["kind"] != "apart" for each in problem.get("relations") or ())
+    held = {order for order, pin in told.pins.items()
+            if pin.after is not None and order not in served}
+    for number, event in events:
+        if not isinstance(event, OrderPinned):
+            continue
+        held.discard(event.order)
+        if event.after is not None and not event.undone and event.order not in served:
+            held.add(event.order)
+            if len(held) > room:
+                yield InputError(
+                    code="OUT_OF_RANGE", path=f"$[{number}].after",
+                    message=f"Plans of this day hold {room} orders behind others, no more: lift "
+                    "a pin, or leave `after` out.")
 
 
 def _begun(plan: PlanInput, now: float) -> Iterator[tuple[str, str]]:

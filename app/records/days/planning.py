@@ -5,6 +5,7 @@ from collections.abc import Collection, Iterator, Mapping, Sequence
 from typing import Any
 
 from app.records.days.fold import Data, ToldDay, visits
+from app.records.days.news import served_orders
 from app.records.days.pins import pinned
 from app.records.days.rows import Begun
 from app.records.days.sighting import late_by_position
@@ -74,16 +75,18 @@ def asked(begun: Begun, told: ToldDay, plan: PlanInput | None,
         replan["promised"] = told.etas
     replan["unavailable"] = [*dict.fromkeys([*replan.get("unavailable", ()), *told.out])]
     request["replan"] = replan
+    gone = told.gone
     for name, orders in (("customers", told.customers), ("shipments", told.shipments)):
         back = {order: each for order, each in told.cancelled.items()
                 if order in kept and ("delivery" in each) == (name == "shipments")}
         wanted = {order: each for order, each in orders.items()
-                  if order not in told.elsewhere or order in kept}
+                  if order not in gone or order in kept}
         request[name] = [_released(each, failed.get(order))
                          for order, each in {**wanted, **back}.items()]
     if not told.pins:
         return request
-    return pinned(request, told, PlanInput.model_validate(replan["plan"], strict=False), now)
+    return pinned(request, told, PlanInput.model_validate(replan["plan"], strict=False), now,
+                  {} if plan is None else served_orders(plan, told))
 
 
 def _search_time(within: float, beside: float, orders: int) -> float:
@@ -149,10 +152,9 @@ def _later(stop: StopInput, by: float) -> StopInput:
 
 def too_late(errors: Collection[InputError], request: Mapping[str, Any], told: ToldDay) -> set[str]:
     """Return the orders that a request lacks, and that can't be taken back any more."""
-    gone = {*told.cancelled, *told.elsewhere}
     names = [_name_at(request, error.path) for error in errors
              if error.code == "UNKNOWN_CUSTOMER" and error.path.startswith("$.replan.")]
-    return {order for order in gone
+    return {order for order in told.gone
             if any(name == order or name.startswith(f"{order}/") for name in names)}
 
 

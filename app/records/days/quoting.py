@@ -14,7 +14,7 @@ from app.records.days.errors import DayOverError, NoDayPlanError, QuoteLapsedErr
 from app.records.days.fold import Data
 from app.records.days.memory import DayMemory
 from app.records.days.planning import asked
-from app.records.days.rows import Begun, DayRow
+from app.records.days.rows import Begun
 from app.records.days.runner import now_of
 from app.records.days.store import DayStore
 from app.records.dispatches.store import DispatchStore
@@ -24,6 +24,7 @@ from app.schemas.day import DayOfBody
 from app.schemas.errors import InputError, InvalidRequestError
 from app.schemas.quote import OrderAsked
 from app.records.clock import now_ms
+from app.records.dispatches.rows import DayRow
 
 LAPSES = 120
 """Seconds in which a quote may be accepted."""

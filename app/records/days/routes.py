@@ -16,7 +16,6 @@ from app.plans.routes import Plans
 from app.records.days.events import DayEventsRequest
 from app.records.days.fold import KINDS
 from app.records.days.memory import DayMemory
-from app.records.days.rows import DayRow
 from app.records.days.runner import DayRunner
 from app.records.days.schemas import (
     AcceptRequest, CustomerLinksReply, DayEventsReply, DayPlanReply, DayReply, DayRequest,
@@ -24,6 +23,7 @@ from app.records.days.schemas import (
 )
 from app.records.days.service import DayService, logged
 from app.records.days.store import DayStore
+from app.records.dispatches.rows import DayRow
 from app.records.dispatches.store import DispatchStore
 from app.records.jobs.events import while_admitted
 from app.records.prepared import Database, PreparedDatabase

@@ -1,4 +1,4 @@
-"""Days and their events as the database has them. Times in milliseconds since 1970."""
+"""With what days begin, and their events, in the database. Times in ms since 1970."""
 
 from dataclasses import dataclass, replace
 from functools import cached_property
@@ -6,27 +6,7 @@ from typing import Any
 
 from pydantic_core import from_json
 
-from app.records.dispatches.rows import DispatchRow
 from app.records.dispatches.schemas import EventKind
-
-
-@dataclass(frozen=True)
-class DayRow(DispatchRow):
-    """A day without what it began with, its plan and its events."""
-
-    revision: int = 0
-    planned: int = 0
-    plan_number: int = 0
-    failure: str | None = None
-
-    @property
-    def told_name(self) -> str:
-        """What its client calls it."""
-        return self.name or self.id
-
-    def seconds(self, time: int) -> float:
-        """Return an instant in seconds since plan start."""
-        return (time - self.plan_start) / 1000
 
 
 @dataclass(frozen=True)

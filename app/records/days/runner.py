@@ -7,7 +7,6 @@ import uuid
 from collections import Counter
 from collections.abc import Callable, Sequence
 from concurrent.futures import ThreadPoolExecutor
-from dataclasses import replace
 from datetime import UTC, datetime
 from functools import partial
 from http import HTTPStatus
@@ -25,13 +24,13 @@ from app.records.days.memory import DayMemory
 from app.records.days.news import names_of, news_of
 from app.records.days.planning import asked, too_late
 from app.records.days.remedies import Quote, remedy_of
-from app.records.days.rows import Begun, DayRow
+from app.records.days.rows import Begun
 from app.records.days.sighting import are_in_time
 from app.records.days.spreads import observed
 from app.records.days.store import DayStore
 from app.records.dispatches.instants import PlanStart, instant, milliseconds
-from app.records.dispatches.rows import ToldRow
-from app.records.dispatches.service import HOUR_MS, work_by
+from app.records.dispatches.rows import DayRow, ToldRow
+from app.records.dispatches.service import work_by
 from app.records.dispatches.store import DispatchStore
 from app.records.dispatches.validation import require_drivable
 from app.requests.conversion.locating import at_addresses
@@ -260,9 +259,8 @@ class DayRunner:
         """Return a day that lasts until its plan is over."""
         start = PlanStart.stated(instant(day.plan_start, day.zone_offset), day.time_zone,
                                  datetime.now(UTC))
-        ends_at = max(day.ends_at, milliseconds(start.end(plan)))
-        kept = round(self._settings.dispatch_expiry_hours * HOUR_MS)
-        return replace(day, ends_at=ends_at, expires_at=ends_at + kept)
+        return day.until(max(day.ends_at, milliseconds(start.end(plan))),
+                         self._settings.dispatch_expiry_hours)
 
 
 def now_of(told: ToldDay) -> int:

@@ -57,7 +57,7 @@ class _Reply(BaseModel):
 class PinReply(_Reply):
     """What a dispatcher settled of an order by hand."""
 
-    vehicle: str = Field(description="Who serves it.")
+    vehicle: str | None = Field(description="Who serves it. Null: nobody does.")
     after: str | None = Field(None, description="Whom the vehicle serves before.")
 
 
@@ -115,6 +115,7 @@ class DayReply(_Reply):
     time_zone: str | None = Field(description="Zone of its wall clock.")
     ends_at: datetime = Field(description="When it is over.")
     now: float = Field(description="What time it is, in seconds since plan start.")
+    is_rehearsed: bool = Field(description="Whether it goes by the times that it is told.")
     revision: int = Field(description="Number of its last event.")
     planned: int = Field(description="Number of the last event that the plan counts with.")
     is_planned: bool = Field(description="Whether the plan counts with all that was told.")

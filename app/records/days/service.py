@@ -2,8 +2,7 @@
 
 import re
 import secrets
-import uuid
-from collections.abc import Collection, Iterable, Iterator
+from collections.abc import Collection, Iterable, Iterator, Sequence
 from datetime import UTC, datetime, timedelta
 from typing import Any
 
@@ -21,8 +20,9 @@ from app.records.days.events import (
 from app.records.days.fold import ToldDay, visits
 from app.records.days.memory import DayMemory
 from app.records.days.news import served_orders
+from app.records.days.pins import too_many
 from app.records.days.quoting import accepted, body_of, with_token
-from app.records.days.rows import Begun, DayRow, DayTerms, LoggedEvent
+from app.records.days.rows import Begun, DayTerms, LoggedEvent
 from app.records.days.runner import now_of
 from app.records.days.schemas import (
     AcceptRequest, CustomerLinksReply, DayEventsReply, DayReply, DayRequest, LoggedReply,
@@ -32,8 +32,8 @@ from app.records.days.spreads import chance_of, is_stated, without_chances
 from app.records.days.store import BY_CLIENT, DayStore
 from app.records.days.telling import Steps
 from app.records.dispatches.errors import TooManyDispatchesError
-from app.records.dispatches.instants import PlanStart, instant, milliseconds
-from app.records.dispatches.service import HOUR_MS
+from app.records.dispatches.instants import PlanStart, instant
+from app.records.dispatches.rows import DayRow
 from app.records.dispatches.store import DispatchStore
 from app.records.jobs.webhook import check_url
 from app.requests.bounds import Bounds
@@ -130,10 +130,10 @@ class DayService:
         there = {event.id for event in log if event.origin == BY_CLIENT}
         new = [(number, event) for number, event in enumerate(events)
                if event.event_id not in there]
-        self._require_known(begun.problem, told, new, raw)
         content = self._store.plan(row.id)
-        steps = Steps(None if content is None else parse_plan(content),
-                      dict(told.standings))
+        plan = PlanInput(routes=()) if content is None else parse_plan(content)
+        self._require_known(begun.problem, told, plan, new, raw)
+        steps = Steps(plan, dict(told.standings))
         rows = [steps.row(event, round(row.plan_start + 1000 * event.at), raw[number])
                 for number, event in sorted(new, key=lambda each: each[1].at)]
         self._store.append(row.id, rows, _refuse_events)
@@ -224,13 +224,14 @@ class DayService:
         return DayReply(
             id=row.told_name, dispatch=row.id, time_zone=row.time_zone,
             plan_start=instant(row.plan_start, row.zone_offset), ends_at=instant(row.ends_at),
-            now=row.seconds(now_of(told)), revision=row.revision, planned=row.planned,
+            now=row.seconds(now_of(told)), is_rehearsed=told.clock is not None,
+            revision=row.revision, planned=row.planned,
             is_planned=row.planned >= row.asked, plan_number=row.plan_number, failure=row.failure,
             orders=list(_orders(told, plan, row.seconds(now_of(told)))),
             vehicles=_vehicles(told, plan, row), out=told.out)
 
-    def _require_known(self, problem: dict[str, Any], told: ToldDay,
-                       events: Iterable[tuple[int, AnyEvent]], raw: Any) -> None:
+    def _require_known(self, problem: dict[str, Any], told: ToldDay, plan: PlanInput,
+                       events: Sequence[tuple[int, AnyEvent]], raw: Any) -> None:
         """Make sure that events name what there is, and state orders that can be planned.
 
         Raises
@@ -239,7 +240,7 @@ class DayService:
             With every error, if they don't.
         """
         counts = {kind["id"]: kind.get("count", 1) for kind in problem["fleet"]}
-        errors = []
+        errors = list(too_many(problem, told, served_orders(plan, told), events))
         customers, shipments = dict(told.customers), dict(told.shipments)
         orders = {*customers, *shipments, *told.cancelled}
         origin: dict[str, int] = {}
@@ -288,15 +289,10 @@ class DayService:
         stated = request.problem.day
         day = PlanStart.stated(None if stated is None else stated.start, request.problem.time_zone,
                                now)
-        ends_at = milliseconds(max(day.end(PlanInput(routes=())),
-                                   now + timedelta(hours=self._settings.dispatch_hours)))
-        offset = day.plan_start.utcoffset() or timedelta()
-        return DayRow(
-            id=str(uuid.uuid4()), owner=owner, client=client, created_at=milliseconds(now),
-            plan_start=milliseconds(day.plan_start), ends_at=ends_at,
-            expires_at=ends_at + round(self._settings.dispatch_expiry_hours * HOUR_MS),
-            zone_offset=round(offset.total_seconds() / 60), time_zone=day.time_zone,
-            name=request.id)
+        ends_at = max(day.end(PlanInput(routes=())),
+                      now + timedelta(hours=self._settings.dispatch_hours))
+        return DayRow.begun((owner, client), day, ends_at, self._settings.dispatch_expiry_hours,
+                            request.id)
 
     def _refuse_more(self, there: int) -> None:
         most = self._settings.max_dispatches_per_client
@@ -369,9 +365,11 @@ def _orders(told: ToldDay, plan: PlanInput, now: float) -> Iterable[OrderReply]:
     whole = {name.partition("/")[0] for name in seen}
     for order in (*told.customers, *told.shipments):
         if order not in seen and order not in whole:
-            yield OrderReply(id=order, vehicle=told.elsewhere.get(order),
-                             state="served" if order in told.elsewhere else "waiting",
-                             pinned=_pin(told, order))
+            pin = _pin(told, order)
+            is_left_out = pin is not None and pin.vehicle is None
+            yield OrderReply(id=order, vehicle=told.elsewhere.get(order), pinned=pin,
+                             state="served" if order in told.elsewhere
+                             else "left_out" if is_left_out else "waiting")
 
 
 def _pin(told: ToldDay, order: str) -> PinReply | None:

@@ -10,8 +10,8 @@ from sqlalchemy import ColumnElement, Connection, Engine, func, insert, select, 
 from app.database.tables import DAYS, EVENTS
 from app.records.clock import now_ms
 from app.records.days.errors import DayTakenError
-from app.records.days.rows import Begun, DayRow, DayTerms, LoggedEvent
-from app.records.dispatches.rows import ToldRow
+from app.records.days.rows import Begun, DayTerms, LoggedEvent
+from app.records.dispatches.rows import DayRow, ToldRow
 from app.records.dispatches.store import (
     FAST, VehicleWork, add_events, log_events, put_work, revision_of,
 )

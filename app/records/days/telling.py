@@ -7,7 +7,8 @@ from typing import Any
 from pydantic_core import to_json
 
 from app.records.days.events import (
-    AnyEvent, DroneFlown, DroneLost, VehicleArrived, VehicleBroken, VehicleDeparted, VehicleServed,
+    AnyEvent, DroneFlown, DroneLost, OrderPinned, VehicleArrived, VehicleBroken, VehicleDeparted,
+    VehicleServed,
 )
 from app.records.dispatches.going_on import GROUNDING
 from app.records.dispatches.rows import ToldRow
@@ -37,12 +38,12 @@ class Steps:
     Parameters
     ----------
     plan
-        The day's plan; None: there is none yet.
+        The day's plan.
     standings
         What was told of steps, by vehicle.
     """
 
-    plan: PlanInput | None
+    plan: PlanInput
     standings: dict[str, Standing] = field(default_factory=dict)
 
     def row(self, event: AnyEvent, time: int, stated: dict[str, Any]) -> ToldRow:
@@ -54,6 +55,8 @@ class Steps:
         if found is not None:
             self._note(found, outcome, event.at)
         vehicle = getattr(event, "vehicle", None) if found is None else found.vehicle
+        if isinstance(event, OrderPinned) and event.undone:
+            vehicle, stated = None, {"order": event.order}
         if vehicle is None and "drone" in stated:
             vehicle = str(stated["drone"]).partition("/")[0]
         reason = getattr(event, "reason", None)
@@ -89,7 +92,7 @@ class Steps:
         return None
 
     def _trips(self, vehicle: str | None) -> Iterator[tuple[str, int, TripInput]]:
-        for route in () if self.plan is None else self.plan.routes:
+        for route in self.plan.routes:
             if vehicle is None or route.vehicle == vehicle:
                 for index, trip in enumerate(route.trips):
                     yield route.vehicle, index, trip

@@ -12,7 +12,7 @@ from app.records.dispatches.errors import LinkOverError, TooManyEventsError
 from app.records.dispatches.instants import instant, milliseconds
 from app.records.dispatches.links import find_link
 from app.records.dispatches.going_on import GROUNDING
-from app.records.dispatches.rows import PLAN_SEEN, DispatchRow, ToldRow, VehicleLinkRow
+from app.records.dispatches.rows import PLAN_SEEN, DayRow, ToldRow, VehicleLinkRow
 from app.records.dispatches.schemas import (
     BREAKDOWN, POSITION, SEEN, DriverDay, EventInput, EventsReply, EventsRequest, StepReply,
 )
@@ -70,7 +70,7 @@ def read_flights(store: DispatchStore, token: str) -> list[Flight]:
     return flights
 
 
-def _open_link(store: DispatchStore, token: str) -> tuple[VehicleLinkRow, DispatchRow]:
+def _open_link(store: DispatchStore, token: str) -> tuple[VehicleLinkRow, DayRow]:
     link, dispatch = find_link(store, token)
     if link.revoked_at is not None or dispatch.ends_at <= now_ms():
         raise LinkOverError(link.revoked_at is not None)
@@ -104,12 +104,12 @@ def tell(store: DispatchStore, token: str, request: EventsRequest) -> EventsRepl
                        standing=standing_reply(_standing(store, link, dispatch), steps))
 
 
-def _asks_position(dispatch: DispatchRow, steps: Sequence[StepReply]) -> bool:
+def _asks_position(dispatch: DayRow, steps: Sequence[StepReply]) -> bool:
     """Tell whether somebody plans on from where a vehicle is, on a map of the earth."""
     return dispatch.day is not None and any(step.location is not None for step in steps)
 
 
-def open_or_over(store: DispatchStore, token: str) -> tuple[VehicleLinkRow, DispatchRow]:
+def open_or_over(store: DispatchStore, token: str) -> tuple[VehicleLinkRow, DayRow]:
     """Return a link that wasn't revoked, though its day may be over, and its dispatch.
 
     Raises
@@ -161,7 +161,7 @@ def _kind(event: EventInput) -> str:
     return "drone.lost" if event.reason in GROUNDING else "vehicle.failed"
 
 
-def _standing(store: DispatchStore, link: VehicleLinkRow, dispatch: DispatchRow) -> Standing:
+def _standing(store: DispatchStore, link: VehicleLinkRow, dispatch: DayRow) -> Standing:
     return standing_of(store.events(dispatch.id).get(link.vehicle, []), dispatch.plan_start)
 
 

@@ -3,7 +3,7 @@
 import segno
 
 from app.records.dispatches.errors import UnknownVehicleLinkError
-from app.records.dispatches.rows import DispatchRow, VehicleLinkRow
+from app.records.dispatches.rows import DayRow, VehicleLinkRow
 from app.records.dispatches.store import DispatchStore
 from app.serving.access.tokens import NO_DIGEST, TokenKind, is_token
 
@@ -27,7 +27,7 @@ def qr_of(address: str) -> str:
     return segno.make(address, error="m", micro=False).svg_data_uri(border=4)
 
 
-def find_link(store: DispatchStore, presented: str) -> tuple[VehicleLinkRow, DispatchRow]:
+def find_link(store: DispatchStore, presented: str) -> tuple[VehicleLinkRow, DayRow]:
     """Return the link whose token was presented, valid or not any more, and its dispatch.
 
     Raises

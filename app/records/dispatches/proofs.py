@@ -12,7 +12,7 @@ from app.records.clock import now_ms
 from app.records.dispatches.driving import clock_error, open_or_over
 from app.records.dispatches.errors import TooManyProofsError, UnknownProofError
 from app.records.dispatches.instants import milliseconds
-from app.records.dispatches.rows import DispatchRow
+from app.records.dispatches.rows import DayRow
 from app.records.dispatches.schemas import DriverInput, ProofReply
 from app.records.dispatches.store import DispatchStore
 
@@ -105,7 +105,7 @@ def keep_proof(engine: Engine, token: str, proof: ProofInput) -> list[ProofReply
     return proofs_of(engine, dispatch, link.vehicle)
 
 
-def proofs_of(engine: Engine, dispatch: DispatchRow,
+def proofs_of(engine: Engine, dispatch: DayRow,
               vehicle: str | None = None) -> list[ProofReply]:
     """Return the proofs of a dispatch, or of one of its vehicles, the youngest first."""
     statement = select(
@@ -123,7 +123,7 @@ def proofs_of(engine: Engine, dispatch: DispatchRow,
             for name, by, step, orders, who, time, photo, signature in rows]
 
 
-def picture_of(engine: Engine, dispatch: DispatchRow, vehicle: str, proof: str,
+def picture_of(engine: Engine, dispatch: DayRow, vehicle: str, proof: str,
                part: Part) -> tuple[bytes, str]:
     """Return a picture of a proof and its type.
 

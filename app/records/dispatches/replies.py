@@ -3,7 +3,7 @@
 from app.records.clock import now_ms
 from app.records.dispatches.instants import instant
 from app.records.dispatches.links import address_of, qr_of
-from app.records.dispatches.rows import DispatchRow
+from app.records.dispatches.rows import DayRow
 from app.records.dispatches.schemas import (
     BREAKDOWN, DispatchReply, DispatchSummary, DriverLinkReply, LinkState,
 )
@@ -11,7 +11,7 @@ from app.records.dispatches.service import Followed, LinkStanding
 from app.records.dispatches.standing import standing_reply
 
 
-def summary(row: DispatchRow) -> DispatchSummary:
+def summary(row: DayRow) -> DispatchSummary:
     """Return a dispatch without its links."""
     return DispatchSummary(
         id=row.id, created_at=instant(row.created_at), time_zone=row.time_zone, day=row.day,

@@ -13,9 +13,9 @@ from app.records.dispatches.errors import (
     DispatchOverError, TooManyDispatchesError, UnknownDispatchError,
 )
 from app.records.dispatches.going_on import OnTheRoad, going_on
-from app.records.dispatches.instants import PlanStart, instant, milliseconds
+from app.records.dispatches.instants import PlanStart, instant
 from app.records.dispatches.links import DRIVER_TOKENS
-from app.records.dispatches.rows import DispatchRow, VehicleLinkRow
+from app.records.dispatches.rows import DayRow, VehicleLinkRow
 from app.records.dispatches.schemas import DispatchRequest, GoingOnReply, StepReply
 from app.records.dispatches.standing import Standing, standing_of
 from app.records.dispatches.steps import StepMaker
@@ -28,8 +28,6 @@ from app.schemas.errors import InputError, InvalidRequestError
 from app.schemas.plan import MAX_INSTANT
 from app.serving.access.tokens import NewToken
 from app.serving.settings import Settings
-
-HOUR_MS = 3_600_000
 
 FARTHEST = timedelta(days=366)
 """How far ahead a plan's day may end."""
@@ -53,7 +51,7 @@ class LinkStanding:
 class Followed:
     """A dispatch and how far its vehicles are; tokens that were just made, by link."""
 
-    dispatch: DispatchRow
+    dispatch: DayRow
     links: list[LinkStanding]
     tokens: Mapping[str, NewToken]
 
@@ -100,7 +98,7 @@ class DispatchService:
         return Followed(row, [LinkStanding(link, steps, {}, None) for link, steps in links],
                         {token.id: token for token in tokens})
 
-    def find(self, dispatch: str, owner: str) -> DispatchRow:
+    def find(self, dispatch: str, owner: str) -> DayRow:
         """Return a dispatch.
 
         Raises
@@ -113,7 +111,7 @@ class DispatchService:
             raise UnknownDispatchError
         return row
 
-    def page(self, owner: str, limit: int) -> list[DispatchRow]:
+    def page(self, owner: str, limit: int) -> list[DayRow]:
         """Return an owner's dispatches, the youngest first."""
         return self._store.page(owner, limit)
 
@@ -190,18 +188,18 @@ class DispatchService:
                     for followed in self._followed(row, {}).links}
         return going_on(self._store.plan(row.id), vehicles, now, answers)
 
-    def _flown(self, request: PlannedProblem, row: DispatchRow) -> Flown:
+    def _flown(self, request: PlannedProblem, row: DayRow) -> Flown:
         """Return the flights of a plan."""
         return flights_by_vehicle(request.problem, request.plan, self._roads,
                                   instant(row.plan_start))
 
-    def _open(self, dispatch: str, owner: str) -> DispatchRow:
+    def _open(self, dispatch: str, owner: str) -> DayRow:
         row = self.find(dispatch, owner)
         if row.ends_at <= now_ms():
             raise DispatchOverError
         return row
 
-    def _row(self, request: DispatchRequest, owner: str, client: str) -> DispatchRow:
+    def _row(self, request: DispatchRequest, owner: str, client: str) -> DayRow:
         now = datetime.now(UTC)
         plan_start, time_zone = _day_of(request)
         if plan_start is not None and not -LONGEST < plan_start - now < FARTHEST:
@@ -211,26 +209,20 @@ class DispatchService:
                    if plan_start is None else day.end(request.plan))
         if not now < ends_at < now + FARTHEST:
             raise _not_today()
-        ends = milliseconds(ends_at)
-        offset = day.plan_start.utcoffset() or timedelta()
-        return DispatchRow(
-            id=str(uuid.uuid4()), owner=owner, client=client, created_at=milliseconds(now),
-            plan_start=milliseconds(day.plan_start), ends_at=ends,
-            expires_at=ends + round(self._settings.dispatch_expiry_hours * HOUR_MS),
-            zone_offset=round(offset.total_seconds() / 60), time_zone=day.time_zone)
+        return DayRow.begun((owner, client), day, ends_at, self._settings.dispatch_expiry_hours)
 
     def _refuse_more(self, there: int) -> None:
         most = self._settings.max_dispatches_per_client
         if there >= most:
             raise TooManyDispatchesError(most)
 
-    def _link(self, row: DispatchRow, link: str) -> VehicleLinkRow:
+    def _link(self, row: DayRow, link: str) -> VehicleLinkRow:
         found = [other for other in self._store.links(row.id) if other.id == link]
         if not found:
             raise UnknownDispatchError
         return found[0]
 
-    def _followed(self, row: DispatchRow, tokens: Mapping[str, NewToken]) -> Followed:
+    def _followed(self, row: DayRow, tokens: Mapping[str, NewToken]) -> Followed:
         events, seen = self._store.events(row.id), self._store.seen(row.id)
         links = []
         for link in self._store.links(row.id):

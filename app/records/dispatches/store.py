@@ -12,7 +12,7 @@ from app.database.tables import DAYS, EVENTS, LINKS, PROOFS
 from app.plans.flights.flight import Flight
 from app.records.clock import now_ms
 from app.records.dispatches.rows import (
-    PLAN_SEEN, DispatchRow, EventRow, ToldRow, VehicleLinkRow,
+    PLAN_SEEN, DayRow, EventRow, ToldRow, VehicleLinkRow,
 )
 from app.records.dispatches.schemas import StepReply
 from app.requests.plan_reading import parse_plan
@@ -53,7 +53,7 @@ LEFT_OUT: dict[str, Any] = {
 }
 """What is left out of plans that are kept."""
 
-_DISPATCH = [DAYS.c[each.name] for each in fields(DispatchRow)]
+_DISPATCH = [DAYS.c[each.name] for each in fields(DayRow)]
 _LINK = [column for column in LINKS.c if column.name not in ("steps", "flights")]
 _EVENT = [EVENTS.c[name] for name in ("id", "step", "outcome", "time", "reason", "number")]
 
@@ -64,7 +64,7 @@ class DispatchStore:
     def __init__(self, engine: Engine) -> None:
         self._engine = engine
 
-    def add(self, dispatch: DispatchRow, plan: PlanInput,
+    def add(self, dispatch: DayRow, plan: PlanInput,
             links: Sequence[tuple[VehicleLinkRow, Sequence[StepReply]]], flown: Flown,
             refuse: Callable[[int], None]) -> None:
         """Keep a dispatch unless `refuse` raises, told how many its client has open. In place."""
@@ -78,19 +78,19 @@ class DispatchStore:
             for link, steps in links:
                 _add_link(connection, link, _packed_work(steps, flown.get(link.vehicle)))
 
-    def find(self, dispatch: str) -> DispatchRow | None:
+    def find(self, dispatch: str) -> DayRow | None:
         """Return a dispatch."""
         statement = select(*_DISPATCH).where(DAYS.c.id == dispatch)
         with self._engine.connect() as connection:
             row = connection.execute(statement).mappings().first()
-        return None if row is None else DispatchRow(**row)
+        return None if row is None else DayRow(**row)
 
-    def page(self, owner: str, limit: int) -> list[DispatchRow]:
+    def page(self, owner: str, limit: int) -> list[DayRow]:
         """Return an owner's dispatches, the youngest first."""
         statement = (select(*_DISPATCH).where(DAYS.c.owner == owner)
                      .order_by(DAYS.c.created_at.desc(), DAYS.c.id).limit(limit))
         with self._engine.connect() as connection:
-            return [DispatchRow(**row) for row in connection.execute(statement).mappings()]
+            return [DayRow(**row) for row in connection.execute(statement).mappings()]
 
     def plan(self, dispatch: str) -> PlanInput:
         """Return the plan of a dispatch that there is; nobody drives if there is none yet."""
@@ -99,7 +99,7 @@ class DispatchStore:
                 select(DAYS.c.plan).where(DAYS.c.id == dispatch))
         return parse_plan(zlib.decompress(content) if content else b'{"routes": []}')
 
-    def link(self, link: str) -> tuple[VehicleLinkRow, DispatchRow] | None:
+    def link(self, link: str) -> tuple[VehicleLinkRow, DayRow] | None:
         """Return a link and the dispatch that it is of."""
         with self._engine.connect() as connection:
             row = connection.execute(select(*_LINK).where(LINKS.c.id == link)).mappings().first()

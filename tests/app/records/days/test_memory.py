@@ -8,8 +8,9 @@ from pydantic_core import to_json
 
 from app.records.days.fold import fold, fold_on
 from app.records.days.memory import DayMemory
-from app.records.days.rows import Begun, DayRow, DayTerms, LoggedEvent
+from app.records.days.rows import Begun, DayTerms, LoggedEvent
 from app.records.days.store import DayStore
+from app.records.dispatches.rows import DayRow
 from tests.seeds import seeds
 
 BEGIN = Begun({"customers": [{"id": name} for name in "AB"]}, DayTerms(2.0, 600.0, 0.0, ""))

@@ -10,13 +10,17 @@ from app.records.days.fold import Pin, fold
 from app.records.days.rows import Begun, DayTerms, LoggedEvent
 from app.records.days.schemas import PinReply
 from app.serving.settings import Settings
+from model.problem import MOST_RELATIONS
 from tests.app.conftest import SearchingPlanner, ready, serving
 from tests.app.records.days.living import (
     PROBLEM, begun, clock, order, plan_of, served_by, standing, told,
 )
 
 VANS = ("van-1", "van-2", "van-3")
-ROOMY = PROBLEM | {"fleet": [{**PROBLEM["fleet"][0], "capacity": [9]}]}
+ROOMY = PROBLEM | {"fleet": [{**PROBLEM["fleet"][0], "capacity": [9]}],
+                   "options": {"search_iterations": 1000}}
+UNHURRIED = {"plan_within": 60.0}
+"""Plans end by their turns, however busy the machine is."""
 
 
 @pytest.fixture(scope="module")
@@ -40,7 +44,7 @@ def tour(plan: dict[str, Any], vehicle: str) -> list[str]:
 
 @pytest.mark.slow
 def test_pinned_order_stays_with_its_vehicle_until_that_is_lifted(service: httpx.Client) -> None:
-    day = begun(service, ROOMY)
+    day = begun(service, ROOMY, **UNHURRIED)
     free = plan_of(service, day)
     other = next(van for van in VANS if van != served_by(free)["A"])
     told(service, day, clock(), pin("A", other), at=10)
@@ -60,7 +64,7 @@ def test_pinned_order_stays_with_its_vehicle_until_that_is_lifted(service: httpx
 @pytest.mark.parametrize("names", ["AB", "BA", "FD"])
 def test_who_is_pinned_behind_another_is_served_after_it(service: httpx.Client,
                                                          names: str) -> None:
-    day = begun(service, ROOMY)
+    day = begun(service, ROOMY, **UNHURRIED)
     first, second = tuple(names)
     told(service, day, clock(), pin(second, "van-2", after=first), at=10)
     for at in (20, 30):
@@ -132,3 +136,42 @@ def test_only_routes_of_vehicles_change_of_which_something_was_told(
     other = next(van for van in VANS if van != one)
     told(service, day, pin("B", other), at=20)
     assert served_by(plan_of(service, day))["B"] == other
+
+
+@pytest.mark.slow
+def test_more_orders_behind_others_than_plans_hold_are_refused(service: httpx.Client) -> None:
+    rules = [{"kind": "before", "customers": ["A", "B"]}] * (MOST_RELATIONS - 1)
+    day = begun(service, ROOMY | {"relations": rules}, **UNHURRIED)
+    told(service, day, pin("C", "van-1", after="D"), at=10)
+    another = {"event_id": "another", "at": 20, **pin("E", "van-1", after="F")}
+    refused = service.post(f"/days/{day}/events", json=[another])
+    assert refused.status_code == 422
+    assert [(each["code"], each["path"]) for each in refused.json()["errors"]] == [
+        ("OUT_OF_RANGE", "$[0].after")]
+    told(service, day, {"kind": "order.pinned", "order": "C", "undone": True}, another, at=30)
+    stops = tour(plan_of(service, day), "van-1")
+    assert stops.index("F") < stops.index("E")
+
+
+@pytest.mark.slow
+def test_who_is_left_out_by_hand_waits_until_that_is_lifted(service: httpx.Client) -> None:
+    day = begun(service, ROOMY, **UNHURRIED)
+    told(service, day, clock(), {"kind": "order.pinned", "order": "A", "left_out": True}, at=10)
+    for at in (20, 30):
+        assert "A" not in served_by(plan_of(service, day))
+        found = next(each for each in standing(service, day).orders if each.id == "A")
+        assert (found.state, found.pinned) == ("left_out", PinReply(vehicle=None))
+        told(service, day, order(f"G{at}", 1, 1), at=at)
+    told(service, day, {"kind": "order.pinned", "order": "A", "undone": True}, at=40)
+    assert "A" in served_by(plan_of(service, day))
+
+
+@pytest.mark.slow
+def test_who_is_on_the_way_is_served_though_left_out_by_hand(service: httpx.Client) -> None:
+    day = begun(service)
+    route = plan_of(service, day)["routes"][0]
+    first = route["trips"][0]["stops"][1]["id"]
+    told(service, day, clock(),
+         {"kind": "vehicle.departed", "vehicle": route["vehicle"], "at": 110},
+         {"kind": "order.pinned", "order": first, "left_out": True}, at=120)
+    assert served_by(plan_of(service, day))[first] == route["vehicle"]
