@@ -133,6 +133,38 @@ def test_what_is_put_elsewhere_by_hand_is_told_and_kept_until_it_is_let_go(
                            if each.id == "A"))
 
 
+def test_who_is_left_out_by_hand_waits_until_planned_again(
+        client: httpx.Client, service: str, open_page: Callable[..., Page]) -> None:
+    day = begun(client)
+    page = open_page(f"{service}/#day={day}")
+    opened(page)
+    open_tab(page, "routes")
+    page.get_by_role("button", name="A", exact=True).first.click()
+    page.get_by_role("group", name="Move A").get_by_role("button", name="Leave out").click()
+    tell = page.locator("#tell-edits")
+    expect(tell).to_have_text(re.compile("Tell 1 change"))
+    tell.click()
+    open_tab(page, "drivers")
+    waiting = page.locator("[data-list=waiting]")
+    expect(waiting).to_contain_text("Left out by hand")
+    assert "A" not in served_by(plan_of(client, planned(client, day).id))
+    assert findings(page, ".panel") == []
+    waiting.get_by_role("button", name="Plan A again").click()
+    expect(waiting).to_have_count(0)
+    assert "A" in served_by(plan_of(client, planned(client, day).id))
+
+
+def test_day_is_rehearsed_by_a_clock_that_is_stepped(page: Page) -> None:
+    open_tab(page, "drivers")
+    page.get_by_role("button", name="Rehearse the day").click()
+    title = page.get_by_role("heading", name="A rehearsal")
+    expect(title).to_be_visible()
+    began = title.inner_text()
+    assert findings(page, ".panel") == []
+    page.get_by_role("button", name="+5 min").click()
+    expect(title).not_to_have_text(began)
+
+
 def given(page: Page, name: str) -> str:
     """Give an order to another vehicle by hand, and return which."""
     open_tab(page, "routes")

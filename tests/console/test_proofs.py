@@ -83,6 +83,10 @@ def test_proof_taken_without_network_comes_to_the_dispatcher(
     expect(drawn).to_be_visible()
     assert drawn.evaluate("each => each.decode().then(() => each.naturalWidth)") > 100
     assert findings(page, ".panel") == []
+    page.locator(".proofs").get_by_role("button", name="A", exact=True).click()
+    details = page.locator("section.details")
+    details.get_by_text("Proofs of delivery").click()
+    expect(details.get_by_role("button", name="Photo for A")).to_be_visible()
 
 
 def test_driver_is_told_what_is_new_and_what_was_taken_away_and_confirms(

@@ -36,14 +36,16 @@ test('who is late, waits or is in doubt is told by how the day stands', () => {
   const day = { orders: [
     order('A', 'planned'), order('B', 'planned', { told: 200 }), order('C', 'planned'),
     order('D', 'waiting'), order('E', 'doubtful', { told: 0 }), order('F', 'doubtful'),
+    order('G', 'left_out', { vehicle: null, pinned: { vehicle: null, after: null } }),
   ] };
   const index = indexed({ A: ['van-1', 900], C: ['van-1', 900, 3600] });
   assert.deepEqual(lateOf(day, index).map(({ id, by }) => [id, by]), [['C', 3600], ['B', 700]]);
-  assert.deepEqual(waitingOf(day, index.plan).map(({ id }) => id), ['D']);
+  assert.deepEqual(waitingOf(day, index.plan).map(({ id, isByHand }) => [id, isByHand]),
+    [['D', false], ['G', true]]);
   const outlook = [{ id: 'A', leaves: false, departure: 3600, futures: 30, later_in: 26,
     saved: 3.1 }];
   assert.deepEqual(waitingOf(day, { ...index.plan, outlook })[0], { id: 'A', key: 'c:A',
-    why: 'Waits: in 26 of 30 futures it leaves at 1:00, for 3.10 less' });
+    isByHand: false, why: 'Waits: in 26 of 30 futures it leaves at 1:00, for 3.10 less' });
   const risky = { orders: [order('A', 'planned', { at_risk: true, chance: 0.3 })] };
   assert.deepEqual(lateOf(risky, index).map(lateInWords), ['may be late (30 %)']);
   assert.deepEqual(doubtsOf(day).map(([vehicle, orders]) => [vehicle, orders.length]),
@@ -92,7 +94,7 @@ test('where orders were put by hand is told by who they are between', () => {
     service_start: second, departure: second });
   const hub = (second) => ({ kind: 'depot', id: 'hub', arrival: second, departure: second });
   const request = { depots: [{ id: 'hub', location: [0, 0] }], fleet: [{ id: 'van', count: 2 }],
-    customers: ['A', 'B', 'C', 'D'].map((id) => customer(id)) };
+    customers: ['A', 'B', 'C', 'D', 'E'].map((id) => customer(id)) };
   const plan = { unassigned: [], summary: { trips: 2 }, cost: { total: 0 }, routes: [
     { vehicle: 'van-1', type: 'van', trips: [{
       stops: [hub(0), at('C', 1), at('A', 2), at('B', 3), hub(4)], sorties: [] }] },
@@ -105,6 +107,7 @@ test('where orders were put by hand is told by who they are between', () => {
   assert.deepEqual(pinsOf(index, ['A', 'A', 'gone']),
     [pin('A', 'van-1', 'C'), pin('B', 'van-1', 'A')]);
   assert.deepEqual(pinsOf(index, ['D']), [pin('D', 'van-2')]);
+  assert.deepEqual(pinsOf(index, ['E']), [{ kind: 'order.pinned', order: 'E', left_out: true }]);
   assert.deepEqual(locksOf(index, ['A', 'D'], true), [pin('A', 'van-1'), pin('D', 'van-2')]);
   assert.deepEqual(locksOf(index, ['A'], false),
     [{ kind: 'order.pinned', order: 'A', undone: true }]);

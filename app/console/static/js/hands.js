@@ -30,7 +30,7 @@ export const moveCustomerTo = (id, place, words) =>
   change((entry) => ({
     request: entry.request,
     decided: withCustomerAt(entry.request, entry.plan, id, place),
-    moved: place ? [id] : [],
+    moved: [id],
     words,
   }));
 

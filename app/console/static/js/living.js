@@ -15,6 +15,7 @@ import { t } from './texts.js';
 const NUMBER = 1; // of the day's plan among plans
 const LOOK_MS = 5000;
 const STEP = 60; // seconds after which more of a plan has happened
+const QUARTER = 900; // seconds
 const FRESH_MS = 300_000; // for which a screen on the wall shows what changed
 
 let following = new AbortController();
@@ -25,15 +26,22 @@ export function dayInAddress() {
   return asked.get('day') && { id: asked.get('day'), isWall: asked.has('wall') };
 }
 
-/** Begin a day with the problem that is open, and the plan that is looked at. */
-export function beginDay() {
+/**
+ * Begin a day with the problem that is open, and the plan that is looked at.
+ *
+ * @param isRehearsed whether it goes by the times that it is told, from before the first departure
+ */
+export function beginDay(isRehearsed) {
   return attempt(async () => {
     const entry = shownPlan(store.get());
     const { request } = store.get();
     const options = { ...request.options, times: 'seconds', geometry: true };
     const replan = entry && { plan: entry.plan, freeze_before: 0 };
     const problem = { ...request, ...dayOf(request), options, replan };
-    await openDay((await api.postDay({ problem })).id);
+    const first = Math.min(...entry?.plan.routes.map(({ trips }) => trips[0].stops[0].departure)
+      ?? [0]);
+    const clock = Math.max(0, QUARTER * Math.floor(first / QUARTER - 1));
+    await openDay((await api.postDay({ problem, ...(isRehearsed && { clock }) })).id);
   });
 }
 
@@ -96,7 +104,7 @@ function shownAs(state, day, problem, plan) {
   const base = problem ? inSeconds(schemas, problem) : live.base;
   const untold = live.base ? untoldOf(live.base, request) : [];
   const patch = { time: time === null || time === live.day.now ? day.now : time,
-    locks: day.orders.filter(({ pinned }) => pinned).map(({ id }) => id) };
+    locks: day.orders.filter(({ pinned }) => pinned?.vehicle).map(({ id }) => id) };
   const entry = { ...former, request: base, replan: { freeze_before: day.now } };
   const isStale = live.isWall && live.changes.size && Date.now() - live.changedAt > FRESH_MS;
   if (!plan && !isStale && day.now - former?.replan.freeze_before < STEP) {

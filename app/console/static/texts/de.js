@@ -2283,6 +2283,11 @@ export default {
   },
   live: {
     begin: 'Den Tag beginnen',
+    rehearse: 'Den Tag proben',
+    rehearsed: 'Eine Probe: es ist {{at}}',
+    byHand: 'Von Hand ausgelassen',
+    planAgain: 'Wieder einplanen',
+    planAgainOf: '{{id}} wieder einplanen',
     plan: 'Der Tag',
     failure: 'Das zuletzt Gemeldete ließ sich nicht planen: der Plan davor gilt.',
     planning: 'Plant',

@@ -2231,6 +2231,11 @@ export default {
   },
   live: {
     begin: 'Begin the day',
+    rehearse: 'Rehearse the day',
+    rehearsed: 'A rehearsal: it is {{at}}',
+    byHand: 'Left out by hand',
+    planAgain: 'Plan it again',
+    planAgainOf: 'Plan {{id}} again',
     plan: 'The day',
     failure: 'What was told last could not be planned: the plan before stays.',
     planning: 'Planning',

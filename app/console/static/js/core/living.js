@@ -70,13 +70,21 @@ export function waitingOf({ orders }, plan) {
   const left = new Map(plan?.unassigned.map(({ id, reasons }) => [id, reasons?.[0]]));
   const later = new Map(plan?.outlook?.filter(({ leaves }) => !leaves)
     .map((each) => [each.id, each]));
-  const why = ({ id, state }) => {
+  const why = (order) => {
+    const { id, state } = order;
+    if (isLeftOut(order)) return t('live.byHand');
     if (left.has(id)) return (left.get(id) && saidOf(left.get(id))) || t('live.out');
     if (state === 'waiting') return t('live.waits');
     return state === 'planned' && later.has(id) ? waitInWords(later.get(id)) : null;
   };
-  return orders.map((order) => ({ id: order.id, key: `c:${order.id}`, why: why(order) }))
+  return orders.map((order) => ({
+    id: order.id, key: `c:${order.id}`, why: why(order), isByHand: isLeftOut(order) }))
     .filter((order) => order.why);
+}
+
+/** Tell whether an order was left out by hand. */
+function isLeftOut({ state, pinned }) {
+  return state === 'left_out' && Boolean(pinned) && pinned.vehicle === null;
 }
 
 function waitInWords({ departure, futures, later_in: count, saved }) {
@@ -133,13 +141,17 @@ export function untoldOf(base, request) {
   ];
 }
 
-/** Return the events that keep orders where they were put by hand, in the plan that has them so. */
+/**
+ * Return the events that keep orders where they were put by hand, or out of plans, in the plan that
+ * has them so.
+ */
 export function pinsOf(index, moved) {
   const customers = new Set(index.request.customers.map(({ id }) => id));
   const pins = moved.flatMap((id) => {
     const halt = index.halts.get(`c:${id}`);
     const order = customers.has(id) ? id : shipmentOf(index.request, id)?.id;
-    if (!halt || !order) return [];
+    if (!order) return [];
+    if (!halt) return [{ kind: 'order.pinned', order, left_out: true }];
     const beside = (by) => halt.trip.stops[halt.stop + by]?.id;
     const [before, behind] = order === id && halt.stop !== null ? [beside(-1), beside(1)] : [];
     return [pinOf(order, halt, customers.has(before) && before),

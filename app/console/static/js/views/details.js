@@ -12,6 +12,7 @@ import { PlaceOf } from './address-search.js';
 import { HeightProfile } from './height-profile.js';
 import { IconButton } from './icon.js';
 import { Facts } from './parts.js';
+import { Proofs } from './proofs.js';
 import { RuledFields } from './ruled-fields.js';
 import { StopMoves } from './stop-moves.js';
 import { WhyHere } from './why-here.js';
@@ -26,6 +27,7 @@ export function Details() {
   const selection = useStore((state) => state.selection);
   const wrong = useStore(({ errors }) => errors.find(({ keys: [section, position] }) =>
     section === 'customers' && typeof position === 'number')?.keys[1]);
+  const dispatch = useStore((state) => state.dispatch);
   const index = indexOf(useStore(shownPlan));
   const key = selection ?? (request.customers[wrong] ? `c:${request.customers[wrong].id}` : null);
   const about = key && describe(request, index, key);
@@ -39,6 +41,8 @@ export function Details() {
       ${flight && html`<${HeightProfile} flight=${flight} rules=${index.plan.rules}
         ground=${request.airspace?.ground} />`}
       ${id !== null && html`<${StopMoves} id=${id} /><${WhyHere} id=${id} />
+        ${dispatch && html`<${Proofs} key=${`proofs ${id}`} dispatch=${dispatch.reply.id}
+          order=${id} />`}
         <${CustomerForm} key=${id} id=${id} request=${request} isWrong=${wrong !== undefined} />`}
     </div></section>`;
 }

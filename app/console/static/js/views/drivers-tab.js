@@ -37,9 +37,10 @@ export function DriversTab() {
   if (!entry) return html`<p class="empty">${t('timeline.nothing')}</p><${Others} />`;
   return html`<section class="section"><h3>${t('drivers.send')}</h3>
     <p class="help">${t('drivers.sendHelp', { number: entry.number })}</p>
-    <div class="buttons"><button type="button" class="primary" onClick=${beginDay}>
+    <div class="buttons"><button type="button" class="primary" onClick=${() => beginDay(false)}>
       ${t('live.begin')}</button><button type="button" onClick=${sendOut}>
-      ${t('drivers.sendOut')}</button></div></section><${Others} />`;
+      ${t('drivers.sendOut')}</button><button type="button" onClick=${() => beginDay(true)}>
+      ${t('live.rehearse')}</button></div></section><${Others} />`;
 }
 
 /** Plans that are on the road already, to be followed again. */

@@ -2,7 +2,7 @@
 
 import { shownPlan, indexOf } from '../actions.js';
 import { driverReason } from '../core/dispatches.js';
-import { clock, money } from '../core/format.js';
+import { clock, duration, money } from '../core/format.js';
 import {
   doubtsOf, lateInWords, lateOf, liveRemedyInWords, remedyFor, slotInWords, waitingOf,
 } from '../core/living.js';
@@ -18,6 +18,7 @@ import { t } from '../texts.js';
 
 const MOST = 30; // rows of a list
 const ON_WALL = 6;
+const STEPS = [300, 3600]; // seconds that a rehearsal goes on by
 
 /** What is to be decided, and what is to be known. */
 export function LiveDay() {
@@ -32,6 +33,7 @@ export function LiveDay() {
   return html`<div class="live-day">
     ${day.failure && html`<p class="error" role="alert" title=${day.failure}>${
       t('live.failure')}</p>`}
+    ${day.is_rehearsed && !isWall && html`<${Clock} now=${day.now} />`}
     <${Doubts} day=${day} index=${index} isAsked=${!isWall} />
     ${!isWall && (live.quote ? html`<${Quote} quote=${live.quote} />` : html`<${NewOrder} />`)}
     <${Listed} name="late" rows=${late} most=${most} row=${(order) =>
@@ -39,8 +41,12 @@ export function LiveDay() {
         <span>${nameOfVehicle(order.vehicle)}, ${clock(order.arrival)}</span>
         <span class=${`news ${live.news.get(order.key)?.kind}`}>${lateInWords(order)}</span>
         ${!isWall && html`<${Mended} order=${order} remedy=${remedyFor(day, order)} />`}`} />
-    <${Listed} name="waiting" rows=${waiting} most=${most} row=${({ key, id, why }) =>
-      html`<${SelectButton} of=${key}>${id}</${SelectButton}> <span>${why}</span>`} />
+    <${Listed} name="waiting" rows=${waiting} most=${most} row=${({ key, id, why, isByHand }) =>
+      html`<${SelectButton} of=${key}>${id}</${SelectButton}> <span>${why}</span>
+        ${isByHand && !isWall && html` <button type="button"
+          aria-label=${t('live.planAgainOf', { id })} onClick=${() =>
+            tell({ kind: 'order.pinned', order: id, undone: true })}>${
+              t('live.planAgain')}</button>`}`} />
     <${Listed} name="changed" rows=${changed} most=${most} row=${([key, { kind, text }]) =>
       html`<${SelectButton} of=${key}>${key.slice(2)}</${SelectButton}>
         <span>${placeOf(index?.halts.get(key))}</span>
@@ -50,6 +56,14 @@ export function LiveDay() {
     <${Listed} name="told" rows=${news} most=${most} row=${(event) =>
       html`<span>${clock(event.at)}</span> <span>${inWords(event)}</span>`} />
   </div>`;
+}
+
+/** What time it is on a day that goes by what it is told, and steps on. */
+function Clock({ now }) {
+  return html`<section class="section"><h3>${t('live.rehearsed', { at: clock(now) })}</h3>
+    <div class="buttons">${STEPS.map((step) => html`<button type="button" key=${step}
+      onClick=${() => tell({ kind: 'clock', at: now + step })}>+${duration(step)}</button>`)}
+    </div></section>`;
 }
 
 /** What serves an order sooner, done by one click. */

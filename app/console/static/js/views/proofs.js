@@ -10,12 +10,13 @@ import { t } from '../texts.js';
 
 const PARTS = ['photo', 'signature'];
 
-/** A list that is looked for when it is unfolded. */
-export function Proofs({ dispatch }) {
+/** A list that is looked for when it is unfolded, of one order or of all. */
+export function Proofs({ dispatch, order = null }) {
   const [found, setFound] = useState(null);
   const look = async ({ currentTarget: { open } }) => {
     try {
-      setFound(open ? await api.getProofs(dispatch) : null);
+      const all = open ? await api.getProofs(dispatch) : null;
+      setFound(order === null ? all : all?.filter(({ orders }) => orders.includes(order)));
     } catch (error) {
       showFailure(error);
     }

@@ -20,7 +20,6 @@ export function move(index, id, place) {
 export function StopMoves({ id }) {
   const entry = useStore(shownPlan);
   const locks = useStore((state) => state.locks);
-  const isLive = useStore((state) => state.live !== null);
   const index = indexOf(entry);
   const halt = index?.halts.get(`c:${id}`);
   const isKnown = index && (halt || leftOutOf(entry.plan).some((other) => other.id === id));
@@ -44,8 +43,8 @@ export function StopMoves({ id }) {
     ${halt && html`<button type="button" aria-pressed=${isLocked}
       onClick=${() => lock([id], !isLocked)}>${
         isLocked ? t('stop.locked') : t('stop.lock')}</button>
-      ${!isLive && html`<button type="button" onClick=${() => move(index, id, null)}>
-        ${t('stop.leaveOut')}</button>`}`}</div>`;
+      <button type="button" onClick=${() => move(index, id, null)}>
+        ${t('stop.leaveOut')}</button>`}</div>`;
 }
 
 function customerOf({ request }, id) {
