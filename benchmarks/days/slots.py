@@ -80,14 +80,17 @@ def quoted(bodies: Sequence[bytes]) -> list[tuple[float, float, bytes]]:
     return found
 
 
-def undercut(request: Data, reply: Data, plan: Data, at: int) -> float:
-    """Return by how much a search undercuts a slot's quote, in % of the plan's cost."""
+def undercut(request: Data, reply: Data, without: float, at: int) -> float:
+    """Return by how much a search undercuts a slot's quote, in % of the plan's cost.
+
+    The same search finds a plan `without` the order at that cost.
+    """
     stated = request["problem"]
     slot = {name: request["slots"][at][name] for name in ("earliest", "latest")}
     more = {**request["order"], "time_window": slot}
     found = planned({**stated, "customers": [*stated["customers"], more]}, SEARCH)
-    cost = plan["cost"]["total"]
-    return float(100 * (cost + reply["slots"][at]["cost"] - found["cost"]["total"]) / cost)
+    more_dear = found["cost"]["total"] - without
+    return float(100 * (reply["slots"][at]["cost"] - more_dear) / without)
 
 
 def main() -> None:
@@ -111,10 +114,11 @@ def main() -> None:
                                for at in range(options.processes)]))
         took = time.perf_counter() - began
     gaps = []
+    without = planned(requests[0]["problem"], SEARCH)["cost"]["total"]
     for request, (_, _, content) in list(zip(requests, alone, strict=False))[:options.searched]:
         reply = json.loads(content)
         kept = [at for at, slot in enumerate(reply["slots"]) if slot["feasible"]]
-        gaps += [undercut(request, reply, plan, at) for at in kept[:1]]
+        gaps += [undercut(request, reply, without, at) for at in kept[:1]]
     print(json.dumps({
         "ms, median": round(1000 * statistics.median(each[0] for each in alone), 1),
         "of the processor": round(1000 * statistics.median(each[1] for each in alone), 1),

@@ -86,7 +86,7 @@ def test_proof_taken_without_network_comes_to_the_dispatcher(
     page.locator(".proofs").get_by_role("button", name="A", exact=True).click()
     details = page.locator("section.details")
     details.get_by_text("Proofs of delivery").click()
-    expect(details.get_by_role("button", name="Photo for A")).to_be_visible()
+    expect(details.get_by_role("button", name="Photo of A")).to_be_visible()
 
 
 def test_driver_is_told_what_is_new_and_what_was_taken_away_and_confirms(
