@@ -150,16 +150,20 @@ def _flown_by(kind: VehicleType, index: int, route: Route,
             if kind.drone_index(sortie.drone) == index]
 
 
+def working_duration(kind: VehicleType, route: Route) -> int:
+    """Return how long a vehicle works, without unpaid breaks."""
+    begin = kind.works_since
+    if begin is None:
+        begin = first_departure(kind, route.trips[0])
+    return route.trips[-1].stops[-1].departure - begin - unpaid(kind, route.trips)
+
+
 def measure_route(
     problem: Problem, route: Route, trips: tuple[TripMetrics, ...]
 ) -> tuple[RouteMetrics, Cost]:
     """Return a route's metrics, made from those of its trips, and what it costs."""
     vehicle_type = problem.vehicle_types[route.vehicle_type]
-    begin = vehicle_type.works_since
-    if begin is None:
-        begin = first_departure(vehicle_type, route.trips[0])
-    end = route.trips[-1].stops[-1].departure
-    working = end - begin - unpaid(vehicle_type, route.trips)
+    working, end = working_duration(vehicle_type, route), route.trips[-1].stops[-1].departure
     over = overtime(vehicle_type, end, working)
     over_rate = vehicle_type.overtime.cost_per_hour if vehicle_type.overtime else 0.0
     stops = sum([len(trip.customer_stops) for trip in route.trips]) * vehicle_type.cost_per_stop

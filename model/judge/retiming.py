@@ -6,6 +6,7 @@ soon as possible, and as late as moves no end and makes no window missed.
 
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
+from functools import partial
 from operator import attrgetter
 from typing import NamedTuple
 
@@ -13,6 +14,7 @@ from model.judge.breaks import has_needless_break
 from model.judge.check import JudgedRoute, judge_route
 from model.judge.clock import closing
 from model.judge.flown_trips import charged_start
+from model.judge.metrics import working_duration
 from model.judge.past import KnownTrip, Past, Vehicle
 from model.judge.placing import is_exact, with_breaks, with_due_rests
 from model.judge.timing import (
@@ -90,15 +92,23 @@ def _is_cheapest(problem: Problem, timed: TimedRoute) -> bool:
 
 
 def _best_timed(problem: Problem, decision: RouteDecision, path: str, past: Past) -> TimedRoute:
-    timer = _Timer(problem, decision, past)
-    best: TimedRoute | None = None
-    for route in timer.tries():
-        tried = TimedRoute(route, judge_route(problem, route, path, past))
-        if best is None or tried.rank < best.rank:
-            best = tried
-    if best is None:
-        raise ValueError(f"route trips: {decision.trips!r} is not allowed")
-    return best
+    routes = list(_Timer(problem, decision, past).tries())
+    kind = problem.vehicle_types[decision.vehicle_type]
+    is_paid = kind.cost_per_hour and len(routes) > 1
+    least = min(routes, key=partial(working_duration, kind)) if is_paid else routes[0]
+    best = TimedRoute(least, judge_route(problem, least, path, past))
+    if not any(trip.sorties for trip in decision.trips) and _is_free_of_blame(best):
+        # By truck, times alone cost: the others cost more, or as much and come later.
+        return best
+    tried = [best if route is least else TimedRoute(route, judge_route(problem, route, path, past))
+             for route in routes]
+    return min(tried, key=attrgetter("rank"))
+
+
+def _is_free_of_blame(timed: TimedRoute) -> bool:
+    """Tell whether a route breaks no rule, and nothing is paid for when it serves and ends."""
+    cost = timed.judged.cost
+    return not (timed.judged.violations or cost.lateness or cost.earliness or cost.overtime)
 
 
 def _has(trip: TripDecision, known: KnownTrip) -> bool:
