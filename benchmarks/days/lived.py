@@ -362,7 +362,9 @@ def main() -> None:
     options.vans = options.vans or max(2, options.orders // 25)
     with tempfile.TemporaryDirectory() as folder, ExitStack() as open_ones:
         server = open_ones.enter_context(postgres_server()) if options.away else None
-        service = Service(Path(folder), None if server is None else server.url)
+        # Without workers for jobs it is back sooner.
+        service = Service(Path(folder), None if server is None else server.url,
+                          {"TANDEM_ROLE": "api"})
         service.start()
         try:
             outcome = lived(service, server, options)

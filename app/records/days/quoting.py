@@ -18,7 +18,6 @@ from app.records.days.rows import Begun
 from app.records.days.runner import now_of
 from app.records.days.store import DayStore
 from app.records.dispatches.store import DispatchStore
-from app.requests.plan_reading import parse_plan
 from app.requests.reading import read_json, read_model
 from app.schemas.day import DayOfBody
 from app.schemas.errors import InputError, InvalidRequestError
@@ -43,11 +42,11 @@ def body_of(days: DayStore, dispatches: DispatchStore, row: DayRow, body: bytes,
     read_model(body, OrderAsked, DayOfBody(to_json(begun.problem)))
     if row.ends_at <= now_ms():
         raise DayOverError
-    content = days.plan(row.id)
-    if content is None:
+    plan = memory.plan(days, row)
+    if plan is None:
         raise NoDayPlanError
     told = memory.stood(days, row, begun).told
-    wanted = asked(begun, told, parse_plan(content), dispatches.steps_by_vehicle(row.id),
+    wanted = asked(begun, told, plan, dispatches.steps_by_vehicle(row.id),
                    max(0.0, row.seconds(now_of(told))), row.planned)
     return to_json({**dict(read_json(body)), "problem": wanted, "plan": wanted["replan"]["plan"]})
 

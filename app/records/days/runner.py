@@ -206,8 +206,7 @@ class DayRunner:
         begun = self._store.begun(day.id)
         until = time.monotonic() + MENDING * begun.terms.plan_within
         log, told = self.memory.stood(self._store, day, begun)
-        content = self._store.plan(day.id)
-        before = None if content is None else parse_plan(content)
+        before = self.memory.plan(self._store, day)
         if before and not day.failure and are_in_time(begun, told, before, log, day.planned):
             self._store.keep_plan(day, self._by)
             return
@@ -227,8 +226,9 @@ class DayRunner:
                        observed(before, told, log, day.planned),
                        lambda order: None if time.monotonic() > until else remedy_of(
                            order, from_json(wanted), from_json(reply), now, self._quote))
-        self._store.publish(self._with_end(day, plan), self._by, reply, work, rows,
-                            partial(self._announced, day, begun.terms.webhook, rows))
+        if self._store.publish(self._with_end(day, plan), self._by, reply, work, rows,
+                               partial(self._announced, day, begun.terms.webhook, rows)):
+            self.memory.keep(day.id, day.plan_number + 1, plan)
         self._beside[day.id] = time.monotonic() - began - problem.options.time_limit
 
     def _announced(self, day: DayRow, webhook: str | None, news: Sequence[ToldRow],

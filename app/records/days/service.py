@@ -37,7 +37,6 @@ from app.records.dispatches.rows import DayRow
 from app.records.dispatches.store import DispatchStore
 from app.records.jobs.webhook import check_url
 from app.requests.bounds import Bounds
-from app.requests.plan_reading import parse_plan
 from app.requests.reading import read_json, read_model, request_errors
 from app.schemas.day import DayOfBody, Times
 from app.schemas.errors import InputError, InvalidRequestError
@@ -46,6 +45,8 @@ from app.schemas.request import PlanRequest
 from app.schemas.response import PlanReply
 from app.schemas.times import read_body
 from app.serving.settings import Settings
+
+NO_PLAN = PlanInput(routes=())
 
 MAX_EVENTS = 100_000
 """Most events of a day."""
@@ -130,8 +131,7 @@ class DayService:
         there = {event.id for event in log if event.origin == BY_CLIENT}
         new = [(number, event) for number, event in enumerate(events)
                if event.event_id not in there]
-        content = self._store.plan(row.id)
-        plan = PlanInput(routes=()) if content is None else parse_plan(content)
+        plan = self._memory.plan(self._store, row) or NO_PLAN
         self._require_known(begun.problem, told, plan, new, raw)
         steps = Steps(plan, dict(told.standings))
         rows = [steps.row(event, round(row.plan_start + 1000 * event.at), raw[number])
@@ -196,8 +196,7 @@ class DayService:
         row = self.find(name, owner)
         begun = self._store.begun(row.id)
         told = self._memory.stood(self._store, row, begun).told
-        content = self._store.plan(row.id)
-        plan = PlanInput(routes=()) if content is None else parse_plan(content)
+        plan = self._memory.plan(self._store, row) or NO_PLAN
         return CustomerLinksReply(links=links_of(base, begun, row, told, plan))
 
     def problem(self, name: str, owner: str) -> dict[str, Any]:
@@ -205,9 +204,8 @@ class DayService:
         row = self.find(name, owner)
         begun = self._store.begun(row.id)
         told = self._memory.stood(self._store, row, begun).told
-        content = self._store.plan(row.id)
-        planned = {order.partition("/")[0] for order, _, _ in visits(
-            PlanInput(routes=()) if content is None else parse_plan(content))}
+        planned = {order.partition("/")[0]
+                   for order, _, _ in visits(self._memory.plan(self._store, row) or NO_PLAN)}
         stay = {order: each for order, each in told.cancelled.items() if order in planned}
         return {**begun.problem, "replan": None,
                 "customers": [*told.customers.values(), *(
@@ -219,8 +217,7 @@ class DayService:
         """Return how a day stands; raises as `find` does."""
         row = self.find(name, owner)
         told = self._memory.stood(self._store, row, self._store.begun(row.id)).told
-        content = self._store.plan(row.id)
-        plan = PlanInput(routes=()) if content is None else parse_plan(content)
+        plan = self._memory.plan(self._store, row) or NO_PLAN
         return DayReply(
             id=row.told_name, dispatch=row.id, time_zone=row.time_zone,
             plan_start=instant(row.plan_start, row.zone_offset), ends_at=instant(row.ends_at),
@@ -289,7 +286,7 @@ class DayService:
         stated = request.problem.day
         day = PlanStart.stated(None if stated is None else stated.start, request.problem.time_zone,
                                now)
-        ends_at = max(day.end(PlanInput(routes=())),
+        ends_at = max(day.end(NO_PLAN),
                       now + timedelta(hours=self._settings.dispatch_hours))
         return DayRow.begun((owner, client), day, ends_at, self._settings.dispatch_expiry_hours,
                             request.id)
