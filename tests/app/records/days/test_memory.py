@@ -11,6 +11,7 @@ from app.records.days.memory import DayMemory
 from app.records.days.rows import Begun, DayTerms, LoggedEvent
 from app.records.days.store import DayStore
 from app.records.dispatches.rows import DayRow
+from app.schemas.plan import PlanInput
 from tests.seeds import seeds
 
 BEGIN = Begun({"customers": [{"id": name} for name in "AB"]}, DayTerms(2.0, 600.0, 0.0, ""))
@@ -46,6 +47,10 @@ class Log(DayStore):
         self.read += len(found)
         return found
 
+    def plan(self, day: str) -> bytes | None:
+        self.read += 1
+        return b'{"routes": []}'
+
 
 @pytest.mark.parametrize("seed", seeds(20))
 @pytest.mark.parametrize("lateness", [0.0, 0.3])
@@ -68,6 +73,13 @@ def test_what_was_told_is_read_once() -> None:
     for revision in (10, 10):
         memory.stood(store, replace(row, revision=revision), BEGIN)
     assert store.read == 10
+
+
+def test_plan_is_read_again_once_it_is_another() -> None:
+    row, store, memory = DayRow("day", "", "", 0, 0, 0, 0, 0, None, None), Log([]), DayMemory()
+    for number, read in ((1, 1), (1, 1), (2, 2)):
+        assert memory.plan(store, replace(row, plan_number=number)) == PlanInput(routes=())
+        assert store.read == read
 
 
 def test_only_what_is_put_before_others_is_folded_from_nothing() -> None:
