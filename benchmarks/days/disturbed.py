@@ -373,10 +373,10 @@ def main() -> None:
             print(seed, {name: (round(each[-1]["cost"], 1), each[-1]["kept"], each[-1]["wanted"],
                                 round(each[-1]["changes"], 1)) for name, each in found.items()},
                   flush=True)
+            if options.picture is not None:
+                draw(found, options.picture)
         dispatcher.close()
     print(table(found))
-    if options.picture is not None:
-        draw(found, options.picture)
 
 
 if __name__ == "__main__":
