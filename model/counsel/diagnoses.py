@@ -12,14 +12,15 @@ from model.counsel.flight_diagnoses import (
     endurance_broken, energy_broken, hours_broken, max_range_broken, unreachable_broken,
     wind_broken,
 )
-from model.counsel.remedy import LAST_WINDOW, Change, if_stated, in_km, in_minutes, in_units
+from model.counsel.remedy import LAST_WINDOW, Change, if_stated, in_minutes, in_units
+from model.counsel.route_limits import too_much
 from model.counsel.trial import Attempt, attempts
 from model.judge.clock import MS_PER_MINUTE
-from model.judge.driving import excesses, travel_duration
+from model.judge.driving import excesses
 from model.judge.freshness import excess_aboard
 from model.judge.metrics import allowed_overtime
 from model.judge.rules import amounts
-from model.problem import MM_PER_KM, UNLIMITED, Depot, Overtime, Problem
+from model.problem import UNLIMITED, Depot, Overtime, Problem
 from model.solution import Stop, Visit
 
 
@@ -89,36 +90,16 @@ def _pickup_order(attempt: Attempt) -> Diagnosis:
         with_type(attempt, replace(vehicle_type, pickups="any")))
 
 
-def _trip_distance(attempt: Attempt) -> Diagnosis:
-    vehicle_type = attempt.vehicle_type
-    limit = vehicle_type.max_trip_distance or 0
-    distance = attempt.evaluation.routes[0].trips[0].distance
-    excess = up_to_tenth(distance - limit, MM_PER_KM)
-    remedy, changed = more_of("trip_distance", vehicle_type, excess)
-    return Diagnosis(
-        "RANGE", f"A trip there and back is {in_km(excess)} longer than a trip may be.", remedy,
-        with_type(attempt, changed))
+def _too_far_or_long(code: str) -> Callable[[Attempt], Diagnosis]:
+    """Return what says by how much the way there and back is beyond a limit of a vehicle."""
+    def broken(attempt: Attempt) -> Diagnosis:
+        kind, (route,) = attempt.vehicle_type, attempt.solution.routes
+        found = too_much(code, kind, route, attempt.evaluation.routes[0])
+        return Diagnosis(found.limit.code,
+                         found.limit.alone.format(more=found.more, of=kind.id),
+                         found.remedy, with_type(attempt, found.changed))
 
-
-def _distance(attempt: Attempt) -> Diagnosis:
-    kind, limit = attempt.vehicle_type, attempt.vehicle_type.max_distance or 0
-    distance = sum(trip.distance for trip in attempt.evaluation.routes[0].trips)
-    excess = up_to_tenth(distance - limit, MM_PER_KM)
-    remedy, changed = more_of("distance", kind, excess, kind.id)
-    return Diagnosis(
-        "DISTANCE", f"The way there and back is {in_km(excess)} more than {kind.id} may drive.",
-        remedy, with_type(attempt, changed))
-
-
-def _travel_duration(attempt: Attempt) -> Diagnosis:
-    kind, limit = attempt.vehicle_type, attempt.vehicle_type.max_travel_duration or 0
-    travel = travel_duration(attempt.solution.routes[0].trips)
-    excess = up_to_tenth(travel - limit, MS_PER_MINUTE)
-    remedy, changed = more_of("travel", kind, excess, kind.id)
-    return Diagnosis(
-        "TRAVEL_DURATION",
-        f"The way there and back takes {in_minutes(excess)} more than {kind.id} may travel.",
-        remedy, with_type(attempt, changed))
+    return broken
 
 
 def _visit(attempt: Attempt) -> Stop | Visit:
@@ -296,19 +277,14 @@ def _shift(attempt: Attempt) -> Diagnosis:
 
 def _working_hours(attempt: Attempt) -> Diagnosis:
     vehicle_type, overtime = attempt.vehicle_type, attempt.vehicle_type.overtime
-    limit = vehicle_type.max_working_duration or 0
-    most = limit + allowed_overtime(vehicle_type)
+    if overtime is None:
+        return _too_far_or_long("WORKING_DURATION")(attempt)
+    most = (vehicle_type.max_working_duration or 0) + allowed_overtime(vehicle_type)
     excess = up_to_tenth(attempt.evaluation.routes[0].working_duration - most, MS_PER_MINUTE)
-    if overtime is not None:
-        return _more_overtime(
-            attempt, overtime, "WORKING_HOURS",
-            f"Serving it alone takes {in_minutes(excess)} more than {vehicle_type.id} may work "
-            "with all the overtime allowed.")
-    remedy, changed = more_of("work", vehicle_type, excess, vehicle_type.id)
-    return Diagnosis(
-        "WORKING_HOURS",
-        f"Serving it alone takes {in_minutes(excess)} more than {vehicle_type.id} may work.",
-        remedy, with_type(attempt, changed))
+    return _more_overtime(
+        attempt, overtime, "WORKING_HOURS",
+        f"Serving it alone takes {in_minutes(excess)} more than {vehicle_type.id} may work "
+        "with all the overtime allowed.")
 
 
 def _breaks(attempt: Attempt) -> Diagnosis:
@@ -354,9 +330,8 @@ DIAGNOSES: dict[str, Callable[[Attempt], Diagnosis]] = {
     "AIRSPACE": hours_broken,
     "ENDURANCE": endurance_broken,
     "ENERGY": energy_broken,
-    "TRIP_DISTANCE": _trip_distance,
-    "DISTANCE": _distance,
-    "TRAVEL_DURATION": _travel_duration,
+    **{code: _too_far_or_long(code)
+       for code in ("TRIP_DISTANCE", "DISTANCE", "TRAVEL_DURATION")},
     "LAUNCH": _launch,
     "MAX_STOPS": _stops,
     "MAX_SORTIES": _sorties,

@@ -14,14 +14,10 @@ from typing import NamedTuple
 import numpy as np
 
 from model.counsel.bench import Bench, Setting, Trial
-from model.counsel.screening import Screen
 from model.judge.check import JudgedRoute
 from model.judge.past import Vehicle
-from model.judge.places import Means
 from model.problem import UNREACHABLE, Customer, DroneType, Problem, VehicleType
 from model.solution import Route, Solution
-
-BY_DRONE: tuple[Means, ...] = ("drone",)
 
 TRIES = 3
 """Flights tried to a customer, the likeliest ones."""
@@ -178,9 +174,7 @@ def _tried(problem: Problem, solution: Solution, index: int, nodes: list[int], s
 
 def _flights(bench: Bench, vehicle: Vehicle) -> Iterator[Trial]:
     """Yield plans in which a vehicle's drones fly to a customer, the likeliest flights."""
-    screen = Screen(bench.problem, bench.left_out.solution, bench.node, bench.setting.past,
-                    BY_DRONE)
-    for guess in screen.guesses().get((vehicle, "drone"), [])[:TRIES]:
+    for guess in bench.guesses(wanted=vehicle.__eq__).get((vehicle, "drone"), [])[:TRIES]:
         yield bench.put(guess.place)
 
 

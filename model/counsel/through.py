@@ -13,15 +13,15 @@ from typing import NamedTuple
 import numpy as np
 
 from model.counsel.diagnosis import up_to_tenth
-from model.counsel.remedy import in_km, in_minutes
+from model.counsel.remedy import in_minutes
+from model.counsel.route_limits import ROUTE_LIMITS, too_much
 from model.judge.clock import MS_PER_MINUTE
-from model.judge.driving import travel_duration
 from model.judge.metrics import allowed_overtime
 from model.judge.network import NEVER, Network, network_of
 from model.judge.past import EVERYTHING_OPEN
 from model.judge.retiming import TimedRoute, time_route
 from model.judge.timing import RouteDecision, TripDecision
-from model.problem import MM_PER_KM, UNLIMITED, BoolArray, Depot, Problem, VehicleType
+from model.problem import UNLIMITED, BoolArray, Depot, Problem, VehicleType
 from model.problem.limits import LIMITS
 
 MOST_CUSTOMERS = 250
@@ -30,8 +30,7 @@ MOST_CUSTOMERS = 250
 MOST_NAMES = 5
 """So many customers on a way are named."""
 
-BY_LEGS = frozenset({"TIME_WINDOW", "TIME_ABOARD", "SHIFT", "WORKING_DURATION", "TRIP_DISTANCE",
-                     "DISTANCE", "TRAVEL_DURATION"})
+BY_LEGS = frozenset({"TIME_WINDOW", "TIME_ABOARD", "SHIFT", *ROUTE_LIMITS})
 """Rules that shorter legs may keep."""
 
 
@@ -182,27 +181,11 @@ def _lacking(end: Depot, vehicles: VehicleType, timed: TimedRoute) -> Lacking | 
         late = up_to_tenth(timed.judged.end - vehicles.latest, MS_PER_MINUTE)
         return Lacking("SHIFT", f"would be back {in_minutes(late)} after its shift ends",
                        LIMITS["shift"].raised(vehicles, late))
-    if codes == {"WORKING_DURATION"} and vehicles.overtime is None:
-        limit = vehicles.max_working_duration or 0
-        more = up_to_tenth(timed.judged.metrics.working_duration - limit, MS_PER_MINUTE)
-        return Lacking("WORKING_HOURS", f"would work {in_minutes(more)} more than it may",
-                       LIMITS["work"].raised(vehicles, more))
-    if codes == {"TRIP_DISTANCE"}:
-        limit = vehicles.max_trip_distance or 0
-        more = up_to_tenth(timed.judged.metrics.trips[0].distance - limit, MM_PER_KM)
-        return Lacking("RANGE", f"would drive {in_km(more)} more than a trip may be long",
-                       LIMITS["trip_distance"].raised(vehicles, more))
-    if codes == {"DISTANCE"}:
-        driven = sum(trip.distance for trip in timed.judged.metrics.trips)
-        more = up_to_tenth(driven - (vehicles.max_distance or 0), MM_PER_KM)
-        return Lacking("DISTANCE", f"would drive {in_km(more)} more than it may",
-                       LIMITS["distance"].raised(vehicles, more))
-    if codes == {"TRAVEL_DURATION"}:
-        limit = vehicles.max_travel_duration or 0
-        more = up_to_tenth(travel_duration(timed.route.trips) - limit, MS_PER_MINUTE)
-        return Lacking("TRAVEL_DURATION", f"would travel {in_minutes(more)} more than it may",
-                       LIMITS["travel"].raised(vehicles, more))
-    return None
+    code, = codes if len(codes) == 1 else ("",)
+    if code not in ROUTE_LIMITS or (code == "WORKING_DURATION" and vehicles.overtime is not None):
+        return None
+    found = too_much(code, vehicles, timed.route, timed.judged.metrics)
+    return Lacking(found.limit.code, found.limit.through.format(more=found.more), found.changed)
 
 
 def _rank(passage: Passage) -> tuple[int, float]:

@@ -4,9 +4,10 @@ from collections.abc import Iterator, Mapping
 from dataclasses import replace
 from typing import Literal, TypeVar
 
+from model.counsel.route_limits import ROUTE_LIMITS
 from model.judge.breaks import begin_of, window_of
 from model.judge.clock import MS_PER_MINUTE
-from model.judge.driving import driver_after, travel_duration
+from model.judge.driving import driver_after
 from model.judge.loads import trip_loads
 from model.judge.metrics import RouteMetrics
 from model.judge.pairs import times_between
@@ -34,8 +35,8 @@ def used_by(kind: VehicleType, route: Route, measured: RouteMetrics, number: int
     """Return how much a route has of what limits it, and its trip of a number."""
     trip = measured.trips[number]
     used = {
-        "shift": route.trips[-1].stops[-1].departure, "work": measured.working_duration,
-        "travel": travel_duration(route.trips), "overtime": measured.overtime,
+        **{row.name: row.used(route, measured) for row in ROUTE_LIMITS.values()},
+        "shift": route.trips[-1].stops[-1].departure, "overtime": measured.overtime,
         "stops": len(trip.stop_loads) - 2, "sorties": len(trip.sorties),
         "trip_distance": trip.distance,
         "endurance": trip.duration - kind.launch_duration - kind.recovery_duration}
