@@ -1,18 +1,39 @@
 """What plans are made with, in the process that makes them."""
 
+import time
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import partial
 from typing import Any
 
+from pydantic_core import from_json, to_json
+
 from app.maps.roads.asked import AskedRoads, KnownRoads
 from app.plans.service import PlanService
-from app.plans.warming import warmed
 from app.requests.bounds import Bounds
+from app.schemas.openapi import EXAMPLES_DIR
 from app.serving.children.line import Line
+from app.serving.load.received import ReceivedBody
 from app.serving.observe.metrics import countable, countable_vroom
 from app.serving.settings import Settings
 from model.planner import Planner, load_planner
+
+WARMING_SECONDS = 10.0
+"""Time limit of a plan that otherwise takes milliseconds, for a machine that is busy."""
+
+
+def warmed(planner: Planner) -> Planner:
+    """Return a planner once it has planned by each of its policies.
+
+    What plans need is loaded by the first, which takes longer than the shortest time limits.
+    """
+    service = PlanService(planner)
+    example = from_json((EXAMPLES_DIR / "drones.json").read_bytes())
+    for policy in planner.policies:
+        options = {"policy": policy, "time_limit": WARMING_SECONDS, "search_iterations": 1}
+        service.plan(ReceivedBody(to_json(example | {"options": options}), time.perf_counter()))
+    return planner
+
 
 PLAN, VROOM_PLAN, REFUSED = "plan", "vroom plan", "refused"
 """What is told of plans found, as far as they are counted."""

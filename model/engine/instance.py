@@ -26,8 +26,7 @@ from model.engine.pausing import Pause, go_on
 from model.engine.records import Records
 from model.engine.serving import in_range, vehicle_costs
 from model.engine.structs import Struct
-from model.engine.share_rows import write_shares
-from model.engine.type_rows import limit, most_sorties, rate_row, write_type
+from model.engine.type_rows import limit, most_sorties, rate_row, write_shares, write_type
 from model.engine.variants import (
     Variant, Variation, durations_of, variant_of, ways_of, weighed_variant_of, write_legs,
 )

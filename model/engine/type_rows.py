@@ -7,10 +7,9 @@ from collections.abc import Sequence
 
 from model.engine.breaks import Fields, driver_fields, longest_travel
 from model.engine.library import dtype_of
-from model.engine.records import Record
-from model.engine.share_rows import UNUSED
+from model.engine.records import Record, Records
 from model.engine.variants import Variation, index_of, way_of
-from model.problem import MS_PER_HOUR, UNLIMITED, DroneType, Energy, VehicleType
+from model.problem import MS_PER_HOUR, UNLIMITED, DroneType, Energy, Problem, VehicleType
 
 MOST_DRONES = 256
 """How many drones of a truck may be charged aboard."""
@@ -158,3 +157,14 @@ def _storms(flyer: DroneType | VehicleType | None) -> Fields:
     return {"storms": len(storms), "storm_from": [begin for begin, *_ in storms],
             "storm_until": [end for _, end, _ in storms],
             "storm_zones": [zones for *_, zones in storms]}
+
+
+UNUSED = -1
+"""Stands for what a vehicle has done that isn't used yet."""
+
+
+def write_shares(problem: Problem, types: Records) -> None:
+    """Write what vehicles have done that are used already. In place."""
+    for vehicle in problem.fairness.before:
+        for kind in vehicle.kinds:
+            types[kind]["share_before"] = vehicle.share

@@ -9,8 +9,6 @@ from app.formats.sheets.cells import CellError
 QuestionKind = Literal["column", "sheet", "hidden_rows", "status", "order_kind", "total_rows",
                        "day", "same_rows", "related", "shipments", "orders"]
 
-LONGEST_ID = 500
-
 LEAVE_OUT, PLAN = "leave_out", "plan"
 KEEP_OR_NOT = {LEAVE_OUT: "Leave out", PLAN: "Plan all the same"}
 

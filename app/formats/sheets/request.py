@@ -1,7 +1,7 @@
 """Customers, a depot and a fleet -> a request of `POST /plan`; what is assumed is told."""
 
 import re
-from collections.abc import Collection, Sequence
+from collections.abc import Collection, Iterable, Mapping, Sequence
 from typing import Any
 
 from pydantic_core import to_json
@@ -9,14 +9,14 @@ from pydantic_core import to_json
 from app.formats.sheets.amounts import dimensions
 from app.formats.sheets.cells import CellError, Doubt, MisreadError
 from app.formats.sheets.columns import Column
-from app.formats.sheets.crews import with_crews
 from app.formats.sheets.customers import Entry, placed
 from app.formats.sheets.fleet import Incomplete, fleet_of
 from app.formats.sheets.geography import Pair, TableGeography, depot_pair, on_globe
-from app.formats.sheets.headings import without_unit
+from app.formats.sheets.headings import simple, without_unit
 from app.formats.sheets.related import StatedRelation, price_others
 from app.formats.sheets.rows import Row
 from app.formats.sheets.schemas import ImportSettings
+from app.formats.sheets.vans import Van
 from app.formats.sheets.work import Import
 from app.requests.reading import read_request
 from app.requests.warnings.finding import warnings_of
@@ -160,3 +160,33 @@ def _depots(stops: Sequence[Entry], rows: Sequence[Row], ground: TableGeography,
                       for number in (middle[::-1] if ground.is_geographic else middle))
     return [{"id": "depot", "location": middle}], [Doubt(
         "DEPOT_ASSUMED", f"No depot is stated: the middle of the customers is taken, {shown}.")]
+
+
+_SIZE = re.compile(r"(\d{1,2}) ?([a-z]*)")
+
+
+def with_crews(served: Iterable[Entry], vans: Sequence[Van]) -> list[Doubt]:
+    """Have who asks for a crew, such as `2 men`, served by the vehicles with one. In place."""
+    crews = {van.name: simple(van.texts["crew"]) for van in vans if "crew" in van.texts}
+    asked: dict[str, str] = {}
+    for entry in served:
+        allowed = entry.customer.get("vehicles", {}).get("allowed", ())
+        named = [name for crew in allowed if crew not in crews for name in _having(crew, crews)]
+        if named:
+            kept = [name for name in allowed if name in crews]
+            entry.customer["vehicles"] = {"allowed": list(dict.fromkeys([*kept, *named]))}
+            asked.setdefault(allowed[0], entry.rows[0].cell("vehicles"))
+    if not asked:
+        return []
+    return [Doubt("CREWS", f"Who asks for {', '.join(list(asked)[:10])} is served by vehicles "
+                  "with that crew, or more of it.", cell=next(iter(asked.values())))]
+
+
+def _having(crew: str, crews: Mapping[str, str]) -> list[str]:
+    """Return the vehicles that have a crew: the same, or as many people or more."""
+    wanted = _SIZE.fullmatch(simple(crew))
+    if wanted is None:
+        return [name for name, own in crews.items() if own == simple(crew)]
+    sizes = {name: _SIZE.fullmatch(own) for name, own in crews.items()}
+    return [name for name, own in sizes.items()
+            if own and own[2] == wanted[2] and int(own[1]) >= int(wanted[1])]

@@ -1,17 +1,47 @@
 """The setting -> geocoders to ask."""
 
+import time
+from collections.abc import Sequence
 from functools import partial
 from pathlib import Path
 
 from app.maps.addresses.addresses import NO_ADDRESSES, Addresses
 from app.maps.addresses.caching import AnswerCache
-from app.maps.addresses.extract import ExtractGeocoder
-from app.maps.addresses.geocoder import Geocoder
+from app.maps.addresses.geocoder import (
+    Geocoder, GeocoderStoppedError, GeocoderUnavailableError, Told,
+)
 from app.maps.addresses.index import find_index
+from app.maps.addresses.searching import NAME, search
 from app.maps.addresses.serving import ServerGeocoder
 from app.maps.addresses.setting import AddressExtract, GeocoderSettingError, Source, read_setting
+from app.maps.remote.asking import ShouldStop
 from app.maps.streets.filing import folder_beside
 from app.serving.settings import Settings
+
+
+class ExtractGeocoder:
+    """A file that `build_index` made."""
+
+    name = NAME
+    scope = ""
+    """Looking up is as quick as finding what was kept."""
+
+    def __init__(self, file: Path) -> None:
+        self._file = file
+
+    def find(self, addresses: Sequence[str], until: float, should_stop: ShouldStop,
+             told: Told) -> None:
+        """Look addresses up; each answer is told as it comes. Raises `GeocoderError`."""
+        for place, address in enumerate(addresses):
+            if time.perf_counter() > until:
+                raise GeocoderUnavailableError("There was no time to look all addresses up.")
+            if should_stop():
+                raise GeocoderStoppedError("The work was stopped before there was an answer.")
+            told(place, search(self._file, address))
+
+    def close(self) -> None:
+        """Let go of nothing: the file is opened for each search."""
+
 
 CACHE = Path("addresses", "answers.sqlite")
 """File, in the folder for data, of addresses looked up before."""

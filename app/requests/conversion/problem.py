@@ -2,12 +2,12 @@
 
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import replace
+from itertools import pairwise
 from typing import TypeVar
 
 import numpy as np
 
-from app.requests.conversion.amounts import decimals_of
-from app.requests.conversion.customer import to_customer
+from app.requests.conversion.amounts import counted, decimals_of
 from app.requests.conversion.ground import Ground
 from app.requests.conversion.groups import Group, groups_of, part_of
 from app.requests.conversion.leaving_out import default_unassigned_cost
@@ -15,16 +15,15 @@ from app.requests.conversion.places import PlacedRequest
 from app.requests.conversion.preparing import UNHURRIED, Preparing
 from app.requests.conversion.service import with_service_durations
 from app.requests.conversion.travels import Travels
-from app.requests.conversion.units import by_name, optional_thousandths
+from app.requests.conversion.units import by_name, optional_thousandths, thousandths
 from app.requests.conversion.vehicle import to_vehicle_type
-from app.schemas.customer import place_name
+from app.schemas.customer import CustomerInput, place_name
 from app.schemas.relation import RelationInput
 from app.schemas.request import PlanRequest
 from model.problem import (
-    Balance, Customer, Depot, Fairness, FloatArray, IncompatibleGoods, IntArray, Part, Problem,
-    Relation, Shipment,
+    UNLIMITED, Balance, Customer, Depot, Fairness, FloatArray, IncompatibleGoods, IntArray, Part,
+    Problem, Relation, Shipment,
 )
-
 
 Place = TypeVar("Place", Depot, Customer)
 
@@ -203,3 +202,28 @@ def _with_shipments(request: PlanRequest, customers: tuple[Customer, ...],
             max_detour=optional_thousandths(stated.max_detour), more=tuple(more),
             **by_name(stated, Shipment)))
     return tuple(changed), tuple(shipments)
+
+
+def to_customer(stated: CustomerInput, decimals: Sequence[int],
+                site: int | None = None) -> Customer:
+    """Convert a valid customer; `decimals` by dimension, `site` as `sites_of` numbers it."""
+    windows = stated.windows
+    first, last = windows[0], windows[-1]
+    return Customer(
+        **by_name(stated, Customer),
+        id=stated.id,
+        demand=counted(stated.demand, decimals),
+        pickup=() if stated.pickup is None else counted(stated.pickup, decimals),
+        earliest=thousandths(first.earliest),
+        latest=UNLIMITED if last.latest is None else thousandths(last.latest),
+        late_cost_per_hour=last.late_cost_per_hour,
+        late_cost=last.late_cost,
+        early_cost_per_hour=first.early_cost_per_hour,
+        served_by=stated.served_by,
+        skills=frozenset(stated.skills),
+        gaps=() if first is last else tuple(
+            [(thousandths(window.latest or 0.0), thousandths(following.earliest))
+             for window, following in pairwise(windows)]),
+        goods=frozenset(stated.goods),
+        site=site,
+    )

@@ -2,7 +2,7 @@
 
 import pytest
 
-from app.plans.wording import length, wording
+from app.plans.telling import length, wording
 
 
 def clock(seconds: float) -> str:

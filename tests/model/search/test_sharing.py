@@ -9,7 +9,7 @@ from model.engine.library import call
 from model.search.beginning.construct import begin_anew
 from model.search.beginning.translate import make_searcher
 from model.search.improve import SearchConfig, improve
-from model.search.hubs import shared_out
+from model.search.sharing import shared_out
 from model.search.sharing import DIVIDED_FROM, regions, slots_of
 from model.search.problem_data import make_data
 from model.solution import Solution
