@@ -11,5 +11,5 @@ def seeds(count: int) -> range:
 
 
 def often(count: int) -> int:
-    """Return how often something is met at least, where it is so often in `make fuzz`."""
+    """Return how often something is done, or met at least, that is so often in `make fuzz`."""
     return count // SHARE
