@@ -245,6 +245,7 @@ def test_error_is_told_in_words_and_its_path_is_behind_a_click(
     expect(alert.locator("code")).to_have_text("$.fleet[0].speed_kmh")
 
 
+@pytest.mark.begins_with("city_day")
 @pytest.mark.parametrize(("locale", "schemes"), [
     ("en-GB", ("light", "dark", "light")), ("de-DE", ("dark", "light", "dark"))])
 def test_axe_finds_nothing_in_either_language(open_page: Callable[..., Page], service: str,
