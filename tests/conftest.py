@@ -104,7 +104,7 @@ def pytest_terminal_summary(terminalreporter: pytest.TerminalReporter) -> None:
         terminalreporter.write_line(f"{took[path]:7.1f} s  {path}")
 
 
-TRIES = 5
+TRIES = 20
 """How often a test by the clock is run at most."""
 
 STALL = 0.05

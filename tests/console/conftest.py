@@ -10,7 +10,7 @@ from playwright.sync_api import Browser, BrowserContext, ConsoleMessage, Page, R
 
 from tests.conftest import PATIENCE
 from tests.console.serving import VIEWPORT, WAIT_MS, chromium, new_context, serving
-from tests.console.steps import beginning
+from tests.console.steps import awaited, beginning, idle
 
 OF_A_PAGE = {"viewport", "color_scheme"}
 """What of a browser's context a page of another can be given."""
@@ -145,8 +145,24 @@ def visitor(browser: Browser) -> Iterator[BrowserContext]:
 
 
 @pytest.fixture
-def page(visitor: BrowserContext, service: str, begins_with: str) -> Iterator[Page]:
-    """Return the console with an example planned, to whoever has never been there."""
+def page(request: pytest.FixtureRequest, begins_with: str) -> Page:
+    """Return the console with an example planned, to whoever has never been there.
+
+    All tests of a module that is marked `one_page` share a page, set back through its store; there
+    only an example that a test says to begin with is planned.
+    """
+    if request.node.get_closest_marker("one_page") is None:
+        opened: Page = request.getfixturevalue("page_of_its_own")
+        return opened
+    console: Page = request.getfixturevalue("console")
+    set_back(console, begins_with,
+             is_planned=request.node.get_closest_marker("begins_with") is not None)
+    return console
+
+
+@pytest.fixture
+def page_of_its_own(visitor: BrowserContext, service: str, begins_with: str) -> Iterator[Page]:
+    """Return a page that is opened for a test."""
     leave(visitor)
     page = visitor.new_page()
     forget(visitor, page, service)
@@ -156,6 +172,36 @@ def page(visitor: BrowserContext, service: str, begins_with: str) -> Iterator[Pa
     yield page
     leave(visitor)
     assert complaints.texts == []
+
+
+AS_AT_FIRST = """async ([example, isPlanned]) => {
+  const [{ store }, { openRequest }, { plan }] = await Promise.all(
+    ['store', 'actions', 'planning'].map((name) => loaded(`${name}.js`)));
+  const parts = await Promise.all(['looking', 'plans', 'problem', 'scenarios'].map(
+    async (name) => Object.values(await loaded(`state/${name}.js`))));
+  localStorage.clear();
+  sessionStorage.clear();
+  document.documentElement.dataset.theme = 'light';
+  const { language, examples, epoch, request: former, stated } = store.get();
+  // Another language is another page: what views keep for themselves is gone.
+  store.set({
+    ...Object.assign({}, ...parts.flat()), epoch, request: former, stated, language: null });
+  for (let frames = 2; frames; frames -= 1) await new Promise(requestAnimationFrame);
+  const { request } = examples.find(({ name }) => name === example);
+  openRequest(request, { name: example, isSafe: true });
+  store.set({ language });
+  if (isPlanned) await plan();
+}"""
+
+
+def set_back(page: Page, example: str, *, is_planned: bool) -> None:
+    """Have a console show an example and nothing of what was done before. In place."""
+    page.unroute_all()
+    page.set_viewport_size(VIEWPORT)
+    page.mouse.move(0, 0)
+    awaited(page, AS_AT_FIRST, [example, is_planned])
+    if is_planned:
+        idle(page)
 
 
 def leave(visitor: BrowserContext) -> None:

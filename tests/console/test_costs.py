@@ -11,7 +11,7 @@ from tests.console.steps import idle, open_example, open_file, open_tab, planned
 from tests.console.test_everyone import findings
 from tests.console.test_hands import PROBLEM, reply_of, told
 
-pytestmark = pytest.mark.slow
+pytestmark = [pytest.mark.slow, pytest.mark.one_page]
 
 LEFT_OUT: dict[str, Any] = PROBLEM | {
     "customers": [*PROBLEM["customers"], {"id": "G", "location": [5, 5], "demand": [99]}]}
@@ -39,7 +39,6 @@ def costs_in(page: Page) -> list[float]:
 
 
 def test_cost_is_the_same_everywhere_and_the_penalty_apart(page: Page) -> None:
-    idle(page)
     open_file(page, "left-out.json", json.dumps(LEFT_OUT))
     planned(page, "6 of 7 served")
     cost = state(page, "state.plans.0.plan.cost")
@@ -55,7 +54,6 @@ def test_cost_is_the_same_everywhere_and_the_penalty_apart(page: Page) -> None:
 
 
 def test_what_leaving_out_costs_is_part_of_the_cost_where_it_is_stated(page: Page) -> None:
-    idle(page)
     open_file(page, "priced.json", json.dumps(LEFT_OUT | {"unassigned_cost": 7}))
     expect(page.locator(".result-line")).to_contain_text("of 7 served")
     idle(page)
@@ -64,7 +62,6 @@ def test_what_leaving_out_costs_is_part_of_the_cost_where_it_is_stated(page: Pag
 
 
 def test_leaving_somebody_out_by_hand_tells_cost_and_penalty(page: Page, service: str) -> None:
-    idle(page)
     reply = reply_of(service, "ABC", "DEF")
     page.route("**/plan", lambda route: route.fulfill(json=reply), times=1)
     open_file(page, "six.json", json.dumps(PROBLEM))
@@ -79,7 +76,6 @@ def test_leaving_somebody_out_by_hand_tells_cost_and_penalty(page: Page, service
 
 
 def test_badges_are_the_numbers_of_the_vehicles(page: Page, service: str) -> None:
-    idle(page)
     text = json.dumps(reply_of(service, "ABC", "DEF")).replace("truck-2", "truck-3")
     page.route("**/plan", lambda route: route.fulfill(
         body=text, content_type="application/json"), times=1)

@@ -14,7 +14,7 @@ from tests.console.steps import (
 from tests.console.test_everyone import findings
 from tests.console.test_panning import Stroke, by_finger, by_mouse
 
-pytestmark = pytest.mark.slow
+pytestmark = [pytest.mark.slow, pytest.mark.one_page]
 
 
 def hub_and_site() -> dict[str, Any]:

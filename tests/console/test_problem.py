@@ -11,7 +11,8 @@ from tests.console.steps import (
     EXAMPLES, idle, open_example, open_file, open_tab, place_of, planned, state,
 )
 
-pytestmark = [pytest.mark.slow, pytest.mark.begins_with("table1")]
+pytestmark = [pytest.mark.slow, pytest.mark.one_page]
+
 
 def test_problem_is_opened_from_a_file(console: Page) -> None:
     open_file(console, "mine.json", (EXAMPLES / "smallest.json").read_text("utf-8"))

@@ -5,7 +5,7 @@ from playwright.sync_api import Page, expect
 
 from tests.console.steps import idle, open_example, open_tab, state
 
-pytestmark = pytest.mark.slow
+pytestmark = [pytest.mark.slow, pytest.mark.one_page]
 
 
 def test_change_shows_plan_and_cost_beside_the_former(page: Page) -> None:

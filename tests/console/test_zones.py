@@ -15,7 +15,7 @@ from tests.console.steps import (
 )
 from tests.console.test_everyone import findings
 
-pytestmark = pytest.mark.slow
+pytestmark = [pytest.mark.slow, pytest.mark.one_page]
 
 NUM_ZONES = 400
 HUB = [25.0, 62.0]
