@@ -73,8 +73,9 @@ void alone_costs(const ProblemData& data, Fleet& fleet, const View<double, 3>& a
     for (Int k = 0; k < data.num_types; ++k) {
         for (Int by_drone = 0; by_drone < 2; ++by_drone) {
             for (Int node = data.num_depots; node < data.num_nodes; ++node) {
-                if (data.can(k, by_drone, node) && !is_other_end(data.pair, node) &&
-                    !data.deadline.passed() &&
+                // Of a shipment, drones may serve another end.
+                const bool may_be = data.can(k, is_paired(data.pair, node) ? 0 : by_drone, node);
+                if (may_be && !is_other_end(data.pair, node) && !data.deadline.passed() &&
                     serve_alone(data, fleet, slot, k, node, by_drone == 1)) {
                     alone(k, by_drone, node) = fleet.cost[slot];
                 }

@@ -1,6 +1,5 @@
 #include <tuple>
 
-#include "search/insertion/alone.h"
 #include "search/insertion/shipments.h"
 #include "search/insertion/trip_scan.h"
 #include "search/route/freshness.h"
@@ -183,46 +182,6 @@ private:
     Inserted inserted_;
 };
 
-// Call `visit` with the truck, `nowhere`, and the first drone of each row that may serve an end.
-template <class Visit>
-void for_each_server(const ProblemData& data, Int k, Int node, const Visit& visit) {
-    visit(nowhere);
-    if (!data.can(k, 1, node)) return;
-    for (Int row = first_drone_row(data.type, k); row >= 0; row = next_drone_row(data.type, row)) {
-        if (data.can(row, 1, node)) visit(first_drone(data.type, k, row));
-    }
-}
-
-// Whether a drone that fetches a shipment may deliver it on the same sortie.
-bool may_bring_within(const ProblemData& data, Int k, Int drone, Int delivery) {
-    const Int row = row_of_drone(data.type, k, drone);
-    return data.visits[row] > 1 && data.can(row, 1, delivery);
-}
-
-constexpr Int on_same_flight = -2;
-
-// By which drones a shipment is fetched and brought on a trip of its own, by truck if `nowhere`,
-// and from where to where it is brought.
-struct Relayed {
-    Int fetching, bringing, way;
-};
-
-// Lets a shipment have a trip of its own behind a move's first stop. In place.
-void begin_pair(Move& move, Int depot, std::array<Int, 2> ends, const Relayed& served) {
-    const auto& [fetching, bringing, way] = served;
-    const Int start = move.first + 1;
-    Int end = start;
-    move.add(How::begin, depot, start);
-    if (fetching < 0) move.add(How::serve, ends[0], ++end);
-    if (bringing == nowhere) move.add(How::serve, ends[1], ++end);
-    move.add(How::end, depot, ++end);
-    if (fetching >= 0) move.add(How::fly, ends[0], start, start, fetching);
-    if (bringing == on_same_flight) move.add(How::ride, ends[1], ends[0]);
-    if (bringing < 0) return;
-    const auto [launch, recovery] = bringing_flight(way, end);
-    move.add(How::fly, ends[1], launch, recovery, bringing);
-}
-
 // Whether a part of a shipment comes from the depot, or its trip has to wait for it there.
 bool comes_in_part(const ProblemData& data, Int delivery) {
     return release_of(data.place[0][delivery]) > 0 || total_delivered(data.amount, delivery) > 0;
@@ -247,10 +206,7 @@ void scan_pair(const Insertion& insertion, Int slot) {
             if (allows_stops(data.type[k], stops_on(trip) + ends)) {
                 scan_parts(insertion, slot, trip, walked);
             }
-            scan_flown_parts(insertion, slot, trip);
-            continue;
-        }
-        if (allows_stops(data.type[k], stops_on(trip) + ends_of_pair)) {
+        } else if (allows_stops(data.type[k], stops_on(trip) + ends_of_pair)) {
             PairScan scan(insertion, slot, trip);
             walked ? scan.walk() : scan.time_cheapest();
         }
@@ -276,36 +232,6 @@ void scan_pair_beside(const Insertion& insertion) {
     };
     for_each_pickup(data.pair, node, look_beside);
     look_beside(data.pair[node].partner);
-}
-
-void try_pair_trips(const Insertion& insertion, Int slot) {
-    const auto& [data, searcher, node, enlarge, best] = insertion;
-    const Fleet& fleet = searcher.now;
-    const View<const Stop, 1> stops = fleet.stop[slot];
-    const Int k = fleet.route[slot].type;
-    const Int partner = data.pair[node].partner;
-    const auto try_trip = [&](Int p, const Relayed& served) {
-        Move move{};
-        move.between(slot, k, p, p + 1);
-        begin_pair(move, data.type[k].depot, {node, partner}, served);
-        best.try_move(price_move(data, fleet, move, node, best.cost), move);
-    };
-    for (Int p = -1; p < fleet.route[slot].length; ++p) {
-        if (p >= 0 && stops[p].kind != end_stop) continue;
-        if (is_gathered(data.pair, node)) {
-            try_parts_trip(insertion, slot, p);
-            continue;
-        }
-        for_each_server(data, k, node, [&](Int fetching) {
-            if (fetching >= 0 && may_bring_within(data, k, fetching, partner)) {
-                try_trip(p, {fetching, on_same_flight, 0});
-            }
-            for_each_server(data, k, partner, [&](Int bringing) {
-                const Int ways = fetching < 0 && bringing >= 0 ? ways_to_bring : 1;
-                for (Int way = 0; way < ways; ++way) try_trip(p, {fetching, bringing, way});
-            });
-        });
-    }
 }
 
 }  // namespace tandem

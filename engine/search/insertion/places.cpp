@@ -224,7 +224,8 @@ void try_new_route(const ProblemData& data, const Searcher& searcher, Int node, 
         const Surcharge surcharge(
             best, best.weight > 0.0 ? best.weight * plan_cost_of_opening(data, best.shares, k, node)
                                     : 0.0);
-        for (Int way = 0; way < (data.strategy.loops ? 2 : 1); ++way) {
+        const Int ways = data.strategy.loops || is_paired(data.pair, node) ? 2 : 1;
+        for (Int way = 0; way < ways; ++way) {
             if (!best.takes(cost_alone(data, searcher, k, way, node))) continue;
             best.move.between(nowhere, k, 0, 1).add(way == 0 ? How::serve : How::fly, node, 1);
         }

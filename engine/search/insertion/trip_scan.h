@@ -9,7 +9,6 @@
 namespace tandem {
 
 constexpr Int by_wheels = -1;  // instead of a row of drones
-constexpr Int by_same = -2;    // likewise, of a delivery by the sortie that fetches
 constexpr Int at_stop_there = -1;
 
 // By truck behind stop `first`, or by a drone of a row from `first` to `last`; a delivery perhaps
