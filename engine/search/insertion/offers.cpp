@@ -231,82 +231,40 @@ void offer_trips(const Insertion& insertion, Int slot) {
     const double best = found.cost;
     const Fleet& now = searcher.now;
     const auto [route, stops, trips, sorties] = tour_of(now, slot);
-    const Int k = route.type, m = data.type[k].travel, depot = data.type[k].depot;
-    const double rate = data.rate[k].distance;
-    const TravelLegs legs = legs_of(data.leg, m);
-    const LegRow inward = legs_to(data.back, m, node);
-    const Int out = leg_from(inward, depot).distance, home = leg(legs, node, depot).distance;
-    for (Int p = -1; p < route.length; ++p) {
-        const bool alone = p < 0 || stops[p].kind == end_stop;
-        bool until = false;
-        double cost = double(out + home) * rate;
-        if (!alone) {
-            if (stops[p].flying > 0 || stops[p].kind == start_stop ||
-                stops[p + 1].kind == end_stop) {
-                continue;
-            }
-            const Int here = stops[p].node, there = stops[p + 1].node;
-            const double before = double(-stops[p].leg + leg_from(inward, here).distance + home +
-                                         leg(legs, depot, there).distance) *
-                                  rate;
-            cost = double(-stops[p].leg + leg(legs, here, depot).distance + out +
-                          leg(legs, node, there).distance) *
-                   rate;
-            until = before < cost;
-            cost = std::min(cost, before);
-            if (cost < best && !part_fits(data, now, slot, p, node, until)) continue;
-        }
-        cost += data.rate[k].stop - most_saved(data, now, slot, node);
-        // Each of two trips carries less, at best next to nothing.
-        if (!alone && loads_cost(data, k)) cost -= load_cost(data, now, slot);
-        if (alone && !may_begin(data, k, node)) continue;
-        if (cost < best && (p < 0 || !data.place[0][node].too_late(stops[p].leave))) {
-            offer_trip(insertion, slot, cost, p, alone ? Beginning::alone : Beginning(until));
-        }
-    }
-}
-
-void offer_trips_apart(const Insertion& insertion, Int slot) {
-    const auto [data, searcher, node, enlarge, found] = insertion;
-    const double best = found.cost;
-    const Fleet& now = searcher.now;
-    const auto [route, stops, trips, sorties] = tour_of(now, slot);
     const Int k = route.type, last = route.length - 1;
     const double rate = data.rate[k].distance;
     for (Int p = -1; p <= last; ++p) {
-        Beginning beginning = Beginning::alone;
-        Int here, there;
-        if (p < 0) {
-            here = stops[0].node;
-            there = stops[1].node;
-        } else if (p == last) {
-            here = stops[p - 1].node;
-            there = stops[p].node;
-        } else if (stops[p].kind == end_stop) {
-            here = stops[p].node;
-            there = stops[p + 2].node;
-        } else if (stops[p].flying > 0 || stops[p].kind == start_stop ||
-                   stops[p + 1].kind == end_stop) {
+        const bool alone = p < 0 || stops[p].kind == end_stop;
+        if (!alone &&
+            (stops[p].flying > 0 || stops[p].kind == start_stop || stops[p + 1].kind == end_stop)) {
             continue;
-        } else {
-            here = stops[p].node;
-            there = stops[p + 1].node;
-            beginning = Beginning::behind;
         }
-        double cost = double(detour_by_reload(data, k, here, node, there, p != last)) * rate;
-        if (beginning == Beginning::behind) {
-            const double behind =
-                double(detour_by_reload(data, k, here, node, there, false)) * rate;
-            if (behind < cost) {
-                beginning = Beginning::before;
-                cost = behind;
-            }
+        // Between whom a trip of its own comes: behind an end, the next begins.
+        const Int from = p == last ? p - 1 : std::max(p, Int{0});
+        const Int to = p == last ? p : p + (alone ? 2 : 1);
+        const Int here = stops[from].node, there = stops[to].node;
+        const auto detour = [&](bool first) {
+            return double(detour_by_reload(data, k, here, node, there, first)) * rate;
+        };
+        double cost = detour(alone && p != last);
+        Beginning beginning = Beginning::alone;
+        if (!alone) {
+            const double before = detour(true);
+            const bool until = before < cost;
+            beginning = until ? Beginning::behind : Beginning::before;
+            cost = std::min(cost, before);
+            if (cost < best && !part_fits(data, now, slot, p, node, until)) continue;
+        } else if (!may_begin(data, k, node)) {
+            continue;
         }
         cost += data.rate[k].stop - most_saved(data, now, slot, node);
-        // Whoever was served may be carried less far, at best next to nowhere.
-        if (loads_cost(data, k)) cost -= load_cost(data, now, slot);
-        if (beginning == Beginning::alone && !may_begin(data, k, node)) continue;
-        if (cost < best) offer_trip(insertion, slot, cost, p, beginning);
+        // Each of two trips carries less, or less far, at best next to nothing.
+        if (loads_cost(data, k) && (!alone || is_apart(data, k))) {
+            cost -= load_cost(data, now, slot);
+        }
+        if (cost < best && (p < 0 || !data.place[0][node].too_late(stops[p].leave))) {
+            offer_trip(insertion, slot, cost, p, beginning);
+        }
     }
 }
 

@@ -79,9 +79,6 @@ void offer_halt_trips(const Insertion& insertion, Int slot);
 // Lists a customer where a trip more begins or ends.
 void offer_trips(const Insertion& insertion, Int slot);
 
-// As `offer_trips`, where trips don't all begin and end at one place.
-void offer_trips_apart(const Insertion& insertion, Int slot);
-
 // Takes the cheapest of the insertions listed, if it is the best and isn't overlooked.
 //
 // Those that may be cheapest are priced first, so that most need not be; none is once the search

@@ -5,7 +5,6 @@
 #include "search/insertion/cheapest_stop.h"
 #include "search/insertion/offers.h"
 #include "search/insertion/shipments.h"
-#include "search/route/ends.h"
 #include "search/route/fairness.h"
 #include "search/route/goods.h"
 #include "search/route/hubs.h"
@@ -159,13 +158,7 @@ void try_trips_of(const Insertion& insertion, Int slot) {
         if (data.can(k, 0, node)) try_pair_trips(insertion, slot);
         return;
     }
-    if (data.can(k, 0, node)) {
-        if (is_apart(data, k)) {
-            offer_trips_apart(insertion, slot);
-        } else {
-            offer_trips(insertion, slot);
-        }
-    }
+    if (data.can(k, 0, node)) offer_trips(insertion, slot);
     if (data.can(k, 1, node)) offer_flight_trips(insertion, slot);
     if (has_halts(data) && data.can(k, 1, node)) offer_halt_trips(insertion, slot);
     if (best.weight > 0.0) take_cheapest(insertion);
