@@ -26,85 +26,96 @@ Int free_until(const ProblemData& data, const Fleet& fleet, Int slot, Int launch
     return until;
 }
 
+// What is looked up once for sorties to a customer by drones of a row on a route.
+struct FlownTo {
+    FlownTo(const Insertion& insertion, Int of_slot, Int row_of)
+        : data(insertion.data),
+          searcher(insertion.searcher),
+          node(insertion.node),
+          slot(of_slot),
+          row(row_of),
+          best(insertion.best.cost) {}
+
+    const ProblemData& data;
+    const Searcher& searcher;
+    const Int node, slot, row;
+    const double best;
+    const View<const Stop, 1> stops = searcher.now.stop[slot];
+    const Route& route = searcher.now.route[slot];
+    const Int k = route.type;
+    const Int drone = first_drone(data.type, k, row);  // stands for the row's
+    const VehicleType& type = data.type[row];
+    const Rate rate = data.rate[row];
+    const Windows place = data.place.by_air(type)[node];
+    const LegRow inward = legs_to(data.back, type.drone_travel, node);
+    const LegRow onward = legs_from(data.leg, type.home_travel, node);
+    // Whether drones may be recovered elsewhere than they are launched.
+    const bool crosses = data.strategy.crossings && !waits_for_drones(data.type[k]);
+    // At most, beside what is driven, flown and worked.
+    const double saved = most_saved(data, searcher.now, slot, node);
+    const Int idle = idle_time(route);  // how long the route could work longer at no cost
+};
+
 // Sorties to a customer by drones of a row on a route.
-class Flights {
+class Flights : FlownTo {
 public:
-    Flights(const Insertion& insertion, Int slot, Int row)
-        : insertion_(insertion), slot_(slot), row_(row) {}
+    using FlownTo::FlownTo;
 
     // Lists those from stop `launch`.
     void offer_from(Int launch) const {
-        const Stop& from = stops_[launch];
-        if (!is_launch_place(data_.no_launch, from.node)) return;
-        const Leg out = leg_from(inward_, from.node);
+        const Stop& from = stops[launch];
+        if (!is_launch_place(data.no_launch, from.node)) return;
+        const Leg out = leg_from(inward, from.node);
         // Most stops are so far away that nothing else needs to be looked at.
-        if (flown_cost(rate_, out.distance) - saved_ >= best_) return;
-        if (!in_range(data_, type_, from.node, node_)) return;
-        const Int ready = launch > 0 ? take_off(type_, from.arrival, 0) : from.arrival;
-        const double late = priced_ ? lateness_cost(data_, node_, ready + out.duration) : 0.0;
-        if (flown_cost(rate_, out.distance) + late - saved_ >= best_) return;
+        if (flown_cost(rate, out.distance) - saved >= best) return;
+        if (!in_range(data, type, from.node, node)) return;
+        const Int ready = launch > 0 ? take_off(type, from.arrival, 0) : from.arrival;
+        const double late = priced_ ? lateness_cost(data, node, ready + out.duration) : 0.0;
+        if (flown_cost(rate, out.distance) + late - saved >= best) return;
         Front front{from.arrival + out.duration};
-        if (!front.serve(place_)) return;
-        const Int left = gone_by(type_, from.leave);
-        const Int begun = recovery_end(type_, ready) - idle_;
-        Int last = free_until(data_, searcher_.now, slot_, launch, row_);
-        const Int furthest = searcher_.now.trip(slot_, from.trip).last;
-        last = std::min({last, furthest, crosses_ ? launch + max_span : launch});
-        for (Int recovery = data_.strategy.loops ? launch : launch + 1; recovery <= last;
+        if (!front.serve(place)) return;
+        const Int left = gone_by(type, from.leave);
+        const Int begun = recovery_end(type, ready) - idle;
+        Int last = free_until(data, searcher.now, slot, launch, row);
+        const Int furthest = searcher.now.trip(slot, from.trip).last;
+        last = std::min({last, furthest, crosses ? launch + max_span : launch});
+        for (Int recovery = data.strategy.loops ? launch : launch + 1; recovery <= last;
              ++recovery) {
-            const Stop& to = stops_[recovery];
-            const Leg home = leg_to(onward_, to.node);
-            const double flown = flown_cost(rate_, out.distance + home.distance);
-            if (flown + late - saved_ >= best_ || !in_range(data_, type_, to.node, node_)) continue;
-            if (!is_launch_place(data_.no_launch, to.node)) continue;
-            if (recovery < route_.length - 1 &&
-                recovery_end(type_, front.time + home.duration) + to.gap >
-                    stops_[recovery + 1].latest) {
+            const Stop& to = stops[recovery];
+            const Leg home = leg_to(onward, to.node);
+            const double flown = flown_cost(rate, out.distance + home.distance);
+            if (flown + late - saved >= best || !in_range(data, type, to.node, node)) continue;
+            if (!is_launch_place(data.no_launch, to.node)) continue;
+            if (recovery < route.length - 1 &&
+                recovery_end(type, front.time + home.duration) + to.gap >
+                    stops[recovery + 1].latest) {
                 continue;
             }
-            const Flight flight{type_, place_, out.duration, home.duration};
-            if (!within_endurance(type_, left, left, to.arrival)) {
+            const Flight flight{type, place, out.duration, home.duration};
+            if (!within_endurance(type, left, left, to.arrival)) {
                 // Held back for the window, the truck leaves later and may wait less on its way.
-                if (earliest_back(place_, left + out.duration, 0) <= left) break;
-                if (to.arrival > earliest_back(place_, left + out.duration, home.duration)) {
+                if (earliest_back(place, left + out.duration, 0) <= left) break;
+                if (to.arrival > earliest_back(place, left + out.duration, home.duration)) {
                     continue;
                 }
             }
             // The truck leaves no sooner than the drone is aboard, whatever else it has time for.
             const Int longer = std::max(Int{0}, begun + flight.duration() - to.leave);
-            double cost = flown + usual_work_cost(rate_, longer) + late - saved_;
+            double cost = flown + usual_work_cost(rate, longer) + late - saved;
             if (loaded_) {
-                cost += load_more(data_, searcher_.now, slot_, launch, recovery, node_);
+                cost += load_more(data, searcher.now, slot, launch, recovery, node);
             }
-            if (cost < best_ && flight.can_serve() && room_between(room_, launch, recovery)) {
-                add_offer(searcher_, cost, slot_, launch, recovery)
-                    .add(How::fly, node_, launch, recovery, drone_);
+            if (cost < best && flight.can_serve() && room_between(room_, launch, recovery)) {
+                add_offer(searcher, cost, slot, launch, recovery)
+                    .add(How::fly, node, launch, recovery, drone);
             }
         }
     }
 
 private:
-    const Insertion& insertion_;
-    const Int slot_, row_;
-    const ProblemData& data_ = insertion_.data;
-    const Searcher& searcher_ = insertion_.searcher;
-    const Int node_ = insertion_.node;
-    const View<const Stop, 1> stops_ = searcher_.now.stop[slot_];
-    const Route& route_ = searcher_.now.route[slot_];
-    const Int drone_ = first_drone(data_.type, route_.type, row_);  // stands for the row's
-    const VehicleType& type_ = data_.type[row_];
-    const Rate rate_ = data_.rate[row_];
-    const Windows place_ = data_.place.by_air(type_)[node_];
-    const LegRow inward_ = legs_to(data_.back, type_.drone_travel, node_);
-    const LegRow onward_ = legs_from(data_.leg, type_.home_travel, node_);
-    const Room room_ = room_on(data_, searcher_.now, slot_, route_.type, node_);
-    const bool crosses_ = data_.strategy.crossings && !waits_for_drones(data_.type[route_.type]);
-    const double best_ = insertion_.best.cost;
-    // At most, beside what is flown and worked.
-    const double saved_ = most_saved(data_, searcher_.now, slot_, node_);
-    const Int idle_ = idle_time(route_);  // how long the route could work longer at no cost
-    const bool priced_ = data_.evaluation[route_.type].priced;
-    const bool loaded_ = loads_cost(data_, route_.type);
+    const Room room_ = room_on(data, searcher.now, slot, k, node);
+    const bool priced_ = data.evaluation[k].priced;
+    const bool loaded_ = loads_cost(data, k);
 };
 
 }  // namespace
@@ -140,72 +151,56 @@ struct FlownBetween {
 };
 
 // Sorties to a customer by drones of a row that begin or end at stops at launch sites to come.
-class Halting {
+class Halting : FlownTo {
 public:
-    Halting(const Insertion& insertion, Int slot, Int row)
-        : data_(insertion.data),
-          searcher_(insertion.searcher),
-          slot_(slot),
-          drone_(first_drone(data_.type, searcher_.now.route[slot].type, row)),
-          node_(insertion.node),
-          k_(searcher_.now.route[slot].type),
-          stops_(searcher_.now.stop[slot]),
-          type_(data_.type[row]),
-          rate_(data_.rate[row]),
-          place_(data_.place.by_air(type_)[node_]),
-          inward_(legs_to(data_.back, type_.drone_travel, node_)),
-          onward_(legs_from(data_.leg, type_.home_travel, node_)),
-          crossing_(data_.strategy.crossings && !waits_for_drones(data_.type[k_])),
-          best_(insertion.best.cost),
-          saved_(most_saved(data_, searcher_.now, slot, node_)),
-          idle_(idle_time(searcher_.now.route[slot])) {}
+    using FlownTo::FlownTo;
 
     // Lists those for which the truck stops at a launch site behind stop `p`.
     void offer_behind(Int p, Int halt) const {
-        if (!may_halt(data_.halts, k_, halt) || !in_range(data_, type_, halt, node_) ||
-            !is_served_by(p, data_.halt_after[halt])) {
+        if (!may_halt(data.halts, k, halt) || !in_range(data, type, halt, node) ||
+            !is_served_by(p, data.halt_after[halt])) {
             return;
         }
-        const TravelLegs legs = legs_of(data_.leg, data_.type[k_].travel);
-        const Stop &here = stops_[p], &behind = stops_[p + 1];
+        const TravelLegs legs = legs_of(data.leg, data.type[k].travel);
+        const Stop &here = stops[p], &behind = stops[p + 1];
         const Leg there = leg(legs, here.node, halt), on = leg(legs, halt, behind.node);
-        const Leg out = leg_from(inward_, halt), home = leg_to(onward_, halt);
-        const Trip& trip = searcher_.now.trip(slot_, here.trip);
+        const Leg out = leg_from(inward, halt), home = leg_to(onward, halt);
+        const Trip& trip = searcher.now.trip(slot, here.trip);
         const Int distance = there.distance + on.distance - here.leg;
-        if (distance > longest_trip(data_.type[k_]) - trip.distance) return;
-        const double driven = drive_cost(data_.rate[k_], distance) + data_.halt_cost[halt] - saved_;
-        if (driven + flown_cost(rate_, std::min(out.distance, home.distance)) >= best_) return;
+        if (distance > longest_trip(data.type[k]) - trip.distance) return;
+        const double driven = drive_cost(data.rate[k], distance) + data.halt_cost[halt] - saved;
+        if (driven + flown_cost(rate, std::min(out.distance, home.distance)) >= best) return;
         // While drones fly, the truck may have time before they are back.
         const Int detour = there.duration + on.duration - here.gap;
-        const Int longer = detour - idle_ - here.idle;
-        const Int handled = handling_duration(type_);
+        const Int longer = detour - idle - here.idle;
+        const Int handled = handling_duration(type);
         const Int least_longer = std::max(Int{0}, longer - handled);
-        if (driven + usual_work_cost(data_.rate[k_], least_longer) >= best_) return;
-        if (data_.strategy.loops) {
-            const Flight loop{type_, place_, out.duration, home.duration};
+        if (driven + usual_work_cost(data.rate[k], least_longer) >= best) return;
+        if (data.strategy.loops) {
+            const Flight loop{type, place, out.duration, home.duration};
             offer({p, p, halt, halt}, loop, driven, out.distance + home.distance,
-                  recovery_end(type_, longer + loop.duration()));
+                  recovery_end(type, longer + loop.duration()));
         }
-        if (!crossing_) return;
+        if (!crosses) return;
         offer_landings(p, halt, out, driven, longer);
         const Int last = std::min(trip.last, p + max_span);
         for (Int recovery = p + 1; recovery <= last; ++recovery) {
-            const Stop& to = stops_[recovery];
-            const Leg back = leg_to(onward_, to.node);
+            const Stop& to = stops[recovery];
+            const Leg back = leg_to(onward, to.node);
             if (!may_end_at(to)) continue;
-            const Flight flight{type_, place_, out.duration, back.duration};
-            const Int begun = recovery_end(type_, here.leave + there.duration);
+            const Flight flight{type, place, out.duration, back.duration};
+            const Int begun = recovery_end(type, here.leave + there.duration);
             offer({p, recovery, halt, nowhere}, flight, driven, out.distance + back.distance,
-                  std::max(longer, begun + flight.duration() - to.leave - idle_));
+                  std::max(longer, begun + flight.duration() - to.leave - idle));
         }
         for (Int launch = std::max(trip.first, p - max_span + 1); launch <= p; ++launch) {
-            const Stop& from = stops_[launch];
+            const Stop& from = stops[launch];
             if (!may_end_at(from)) continue;
-            const Leg way = leg_from(inward_, from.node);
-            const Flight flight{type_, place_, way.duration, home.duration};
-            const Int begun = recovery_end(type_, from.arrival + on.duration);
+            const Leg way = leg_from(inward, from.node);
+            const Flight flight{type, place, way.duration, home.duration};
+            const Int begun = recovery_end(type, from.arrival + on.duration);
             offer({launch, p, nowhere, halt}, flight, driven, way.distance + home.distance,
-                  std::max(longer - handled, begun + flight.duration() - behind.leave - idle_));
+                  std::max(longer - handled, begun + flight.duration() - behind.leave - idle));
         }
     }
 
@@ -214,26 +209,26 @@ private:
     //
     // `driven` and `longer` are what the first stop costs, and how much longer it takes.
     void offer_landings(Int p, Int halt, const Leg& out, double driven, Int longer) const {
-        const TravelLegs legs = legs_of(data_.leg, data_.type[k_].travel);
-        const View<const std::int32_t, 1> near = nearest_halts(data_, node_);
-        const Int last = std::min(searcher_.now.trip(slot_, stops_[p].trip).last - 1, p + max_span);
+        const TravelLegs legs = legs_of(data.leg, data.type[k].travel);
+        const View<const std::int32_t, 1> near = nearest_halts(data, node);
+        const Int last = std::min(searcher.now.trip(slot, stops[p].trip).last - 1, p + max_span);
         for (Int rank = 0; rank < std::min(max_landings, near.size()); ++rank) {
             const Int landing = near[rank];
             if (landing < 0) break;
-            if (!may_halt(data_.halts, k_, landing) || !in_range(data_, type_, landing, node_)) {
+            if (!may_halt(data.halts, k, landing) || !in_range(data, type, landing, node)) {
                 continue;
             }
-            const Leg home = leg_to(onward_, landing);
-            const Flight flight{type_, place_, out.duration, home.duration};
+            const Leg home = leg_to(onward, landing);
+            const Flight flight{type, place, out.duration, home.duration};
             for (Int q = p + 1; q <= last; ++q) {
-                const Stop &here = stops_[q], &behind = stops_[q + 1];
+                const Stop &here = stops[q], &behind = stops[q + 1];
                 const Leg there = leg(legs, here.node, landing),
                           on = leg(legs, landing, behind.node);
                 const Int detour = there.duration + on.duration - here.gap - here.idle;
                 const double cost =
-                    driven + data_.halt_cost[landing] +
-                    drive_cost(data_.rate[k_], there.distance + on.distance - here.leg);
-                if (cost >= best_ || !is_served_by(q, data_.halt_after[landing])) continue;
+                    driven + data.halt_cost[landing] +
+                    drive_cost(data.rate[k], there.distance + on.distance - here.leg);
+                if (cost >= best || !is_served_by(q, data.halt_after[landing])) continue;
                 offer({p, q, halt, landing}, flight, cost, out.distance + home.distance,
                       longer + std::max(Int{0}, detour));
             }
@@ -242,55 +237,38 @@ private:
 
     // Tells whether a drone may leave, or come to, a stop as it flies to the customer.
     bool may_end_at(const Stop& stop) const {
-        return is_launch_place(data_.no_launch, stop.node) &&
-               in_range(data_, type_, stop.node, node_);
+        return is_launch_place(data.no_launch, stop.node) && in_range(data, type, stop.node, node);
     }
 
     // Tells whether somebody, if anybody, is served up to stop `p`, drones being recovered by then.
     bool is_served_by(Int p, Int customer) const {
         if (customer < 0) return true;
-        const Place& place = searcher_.now.where[customer];
-        if (place.slot != slot_) return false;
+        const Place& place = searcher.now.where[customer];
+        if (place.slot != slot) return false;
         if (place.position >= 0) return place.position <= p;
-        return searcher_.now.sortie(slot_, place.sortie).recovery <= p;
+        return searcher.now.sortie(slot, place.sortie).recovery <= p;
     }
 
     // Lists an insertion, if that may be cheapest, by how much longer the vehicle works at least.
     void offer(const FlownBetween& way, const Flight& flight, double driven, Int flown,
                Int longer) const {
-        const double cost = driven + flown_cost(rate_, flown) +
-                            usual_work_cost(data_.rate[k_], std::max(Int{0}, longer));
-        if (cost >= best_ || unreachable(std::max(flight.out, flight.home)) ||
-            !flight.can_serve()) {
+        const double cost = driven + flown_cost(rate, flown) +
+                            usual_work_cost(data.rate[k], std::max(Int{0}, longer));
+        if (cost >= best || unreachable(std::max(flight.out, flight.home)) || !flight.can_serve()) {
             return;
         }
         const auto& [launch, recovery, from, to] = way;
         const bool comes_back = from >= 0 && launch == recovery;
         const Int last = std::max(launch + 1, to < 0 ? recovery : recovery + 1);
-        Offer& move = add_offer(searcher_, cost, slot_, launch, last);
+        Offer& move = add_offer(searcher, cost, slot, launch, last);
         Int begin = launch, end = recovery;
         if (from >= 0) {
             move.add(How::halt, from, ++begin);
             ++end;
         }
         if (to >= 0 && !comes_back) move.add(How::halt, to, ++end);
-        move.add(How::fly, node_, begin, end, drone_);
+        move.add(How::fly, node, begin, end, drone);
     }
-
-    const ProblemData& data_;
-    const Searcher& searcher_;
-    Int slot_;
-    Int drone_;  // stands for the row's
-    Int node_, k_;
-    View<const Stop, 1> stops_;
-    const VehicleType& type_;
-    Rate rate_;
-    Windows place_;
-    LegRow inward_, onward_;
-    bool crossing_;  // drones may be recovered elsewhere than they are launched
-    double best_;
-    double saved_;  // at most, beside what is driven, flown and worked
-    Int idle_;      // how long the route could work longer at no cost
 };
 
 }  // namespace
