@@ -38,14 +38,6 @@ void RouteTeller::visit(const ToldStop& visit) {
 }
 
 void RouteTeller::leg(Int stop, const ToldLeg& leg) {
-    if (has_driving_rules(speeds_.type)) {
-        rest_by_rules(stop, leg);
-    } else if (leg.rests.count() > 0) {
-        rest_as_stated(stop, leg);
-    }
-}
-
-void RouteTeller::rest_by_rules(Int stop, const ToldLeg& leg) {
     RestedLeg rested(speeds_, begin_, driver_, leg.stood, leg.leave, leg.duration);
     for (Int index = 0; index < leg.rests.count(); ++index) {
         const Int start = rested.take(leg.rests.number(index), leg.rests.place(index));
@@ -53,22 +45,6 @@ void RouteTeller::rest_by_rules(Int stop, const ToldLeg& leg) {
     }
     rested.arrive();
     driver_ = rested.driver();
-}
-
-void RouteTeller::rest_as_stated(Int stop, const ToldLeg& leg) {
-    const auto travel = [&](Int leave) {
-        return leg_end(speeds_.type, speeds_.times, speeds_.factors, leg.duration, leave);
-    };
-    BrokenLeg broken(speeds_.type, begin_, leg.leave, travel);
-    for (Int index = 0; index < leg.rests.count(); ++index) {
-        RestTimes times{};
-        broken.rest(leg.rests.number(index), leg.rests.place(index), [&](Int stood, Int start) {
-            times.stood = stood;
-            times.start = start;
-        });
-        times.end = broken.time();
-        rest(stop, leg.rests, index, times);
-    }
 }
 
 void RouteTeller::rest(Int stop, Rests rests, Int index, const RestTimes& times) {

@@ -75,8 +75,6 @@ private:
     // Tell numbers more. Returns where they stand.
     std::size_t add(std::initializer_list<Int> numbers);
 
-    void rest_by_rules(Int stop, const ToldLeg& leg);
-    void rest_as_stated(Int stop, const ToldLeg& leg);
     void rest(Int stop, Rests rests, Int index, const RestTimes& times);
 
     std::vector<Int>& numbers_;

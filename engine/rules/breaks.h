@@ -198,69 +198,6 @@ inline Int unpaid_of(const VehicleType& type, Rests rests) {
     return unpaid;
 }
 
-// A leg that a driver with breaks has before him.
-//
-// `Travel` tells when it ends that begins at an instant, without breaks and setup.
-template <class Travel>
-class BrokenLeg {
-public:
-    BrokenLeg(const VehicleType& type, Int begin, Int leave, const Travel& travel)
-        : type_(type), begin_(begin), travel_(travel), time_(leave) {}
-
-    Int time() const { return time_; }
-
-    // Take a break, if it may begin; `note` gets when the truck stands, and when it begins.
-    //
-    // Rests by driving rules don't wait, so how far it drives before one doesn't matter here.
-    template <class Note>
-    bool rest(Int number, RestPlace place, const Note& note) {
-        if (place == RestPlace::arrival) arrive();
-        if (!is_stated(number)) {
-            time_ += rest_duration(type_, number);
-            return true;
-        }
-        const Break pause = break_of(type_, number, begin_);
-        Int stood = time_;
-        const Int start = pause.start(time_);
-        if (place == RestPlace::way && !arrived_) {
-            if (left_ < 0) left_ = travel_(time_) - time_;
-            const Int driven = std::min(left_, start - time_);
-            stood = time_ + driven;
-            left_ -= driven;
-            driven_ += driven;
-        }
-        if (start > pause.latest) return false;
-        note(stood, start);
-        time_ = start + pause.duration;
-        return true;
-    }
-
-    bool rest(Int number, RestPlace place) {
-        return rest(number, place, [](Int, Int) {});
-    }
-
-    // Drive on to the end of the leg.
-    Int arrive() {
-        const Int left = time_;
-        if (!arrived_) time_ = left_ < 0 ? travel_(time_) : time_ + left_;
-        arrived_ = true;
-        driven_ += time_ - left;
-        return time_;
-    }
-
-    // For how long it has been on the leg.
-    Int driven() const { return driven_; }
-
-private:
-    const VehicleType& type_;
-    Int begin_;
-    const Travel& travel_;
-    Int time_;
-    Int left_ = -1;  // of the leg, if that isn't all of it
-    Int driven_ = 0;
-    bool arrived_ = false;
-};
-
 // A break by when its route begins, as `TimeSegment` says: of a route that is timed for many
 // beginnings at once.
 class JoinedBreak {
@@ -290,29 +227,6 @@ private:
     Int latest_, duration_;
 };
 
-// When a leg with breaks ends that is begun at `leave`; nothing if one can't begin in its window.
-template <class Travel>
-std::optional<Int> arrival_after(const VehicleType& type, Rests rests, Int begin, Int leave,
-                                 const Travel& travel) {
-    BrokenLeg leg(type, begin, leave, travel);
-    for (Int index = 0; index < rests.count(); ++index) {
-        if (!leg.rest(rests.number(index), rests.place(index))) return std::nullopt;
-    }
-    return leg.arrive();
-}
-
-// How long a leg with breaks is that is begun at `leave`, which can be taken.
-template <class Travel>
-Int driven_on_leg(const VehicleType& type, Rests rests, Int begin, Int leave,
-                  const Travel& travel) {
-    BrokenLeg leg(type, begin, leave, travel);
-    for (Int index = 0; index < rests.count(); ++index) {
-        leg.rest(rests.number(index), rests.place(index));
-    }
-    leg.arrive();
-    return leg.driven();
-}
-
 // The latest departure of a leg with breaks that ends by `arrival`, as far as breaks delay it.
 //
 // `back` tells it without them.
@@ -340,39 +254,5 @@ Int departure_before(const VehicleType& type, Rests rests, Int begin, Int arriva
 struct BreaksAhead {
     Int next, heavy, begin;
 };
-
-// The breaks that a driver takes on a leg who doesn't know what comes behind it.
-//
-// Each is put off if it may begin when the truck, not delayed, `leaves` there again; it is taken at
-// once where it ends before the service there `opens`. Nothing if none of that can be. Those that
-// are too heavy are put off alone.
-template <class Travel, class Leaves, class Opens>
-std::optional<Rests> rests_on_leg(const VehicleType& type, const BreaksAhead& ahead, Int leave,
-                                  const Travel& travel, const Leaves& leaves, const Opens& opens) {
-    const Int begin = ahead.begin;
-    Rests rests;
-    BrokenLeg leg(type, begin, leave, travel);
-    RestPlace place = RestPlace::departure;
-    for (Int next = ahead.next; next < type.breaks; ++next) {
-        if (over_before(type, next, begin)) continue;
-        const Break pause = break_of(type, next, begin);
-        BrokenLeg onward = leg;
-        const Int arrival = onward.arrive();
-        const bool may = !is_among(ahead.heavy, next);
-        const bool waits = may && pause.may_begin(arrival) && pause.end(arrival) <= opens(arrival);
-        if (!waits && leaves(arrival) <= pause.latest) break;
-        if (!may) return std::nullopt;
-        if (place == RestPlace::arrival || pause.may_begin(arrival)) {
-            place = RestPlace::arrival;
-        } else if (may_rest_on_way(type, next)) {
-            place = RestPlace::way;
-        } else if (place == RestPlace::way) {
-            return std::nullopt;
-        }
-        if (!leg.rest(next, place)) return std::nullopt;
-        rests = rests.with(next, place);
-    }
-    return rests;
-}
 
 }  // namespace tandem

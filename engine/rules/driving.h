@@ -50,7 +50,7 @@ inline bool rests_in_gaps(const VehicleType& type) {
 
 // Whether how far a driver comes before a rest has to be known to tell when a leg ends.
 inline bool follows_driver(const VehicleType& type) {
-    return has_driving_rules(type) && !is_steady(type);
+    return has_driving_rules(type) && rests_in_time(type);
 }
 
 // How long all breaks on a leg are.
@@ -150,8 +150,8 @@ inline Int least_rest(const VehicleType& type, const Driver& driver, Int now, In
     return (driver.half_rested == 1 ? std::min(each, second) : each) + (times - 1) * each;
 }
 
-// A leg that a driver who may have to rest has before him, on a route that begins at `begin`, and
-// how long he stood at other work before it.
+// A leg that a driver who may pause has before him, on a route that begins at `begin`, and how long
+// he stood at other work before it.
 class RestedLeg {
 public:
     RestedLeg(const Speeds& speeds, Int begin, Driver driver, Int stood, Int leave, Int duration)
@@ -238,13 +238,6 @@ struct PausedLeg {
     Rests rests;
     Int begin, leave, duration, stood;
 
-    // When it ends without breaks, by when it begins.
-    auto travel() const {
-        return [this](Int time) {
-            return leg_end(speeds.type, speeds.times, speeds.factors, duration, time);
-        };
-    }
-
     // The leg for a driver, of which nothing is driven yet; it may not outlast this.
     RestedLeg by(const Driver& driver) const {
         return {speeds, begin, driver, stood, leave, duration};
@@ -253,9 +246,6 @@ struct PausedLeg {
     // When it ends; nothing if a break can't be taken. In place: what is counted of its driver,
     // where that is followed.
     std::optional<Int> end(Driver& driver) const {
-        if (!follows_driver(speeds.type)) {
-            return arrival_after(speeds.type, rests, begin, leave, travel());
-        }
         RestedLeg leg = by(driver);
         if (!drive_with(leg, rests)) return std::nullopt;
         driver = leg.driver();
@@ -264,9 +254,6 @@ struct PausedLeg {
 
     // For how long it is driven. In place, as `end`.
     Int driven(Driver& driver) const {
-        if (!follows_driver(speeds.type)) {
-            return driven_on_leg(speeds.type, rests, begin, leave, travel());
-        }
         RestedLeg leg = by(driver);
         drive_with(leg, rests);
         driver = leg.driver();
@@ -282,7 +269,9 @@ inline Int usual_rest(const Driver& driver) {
 // The breaks and rests that a driver takes on a leg who doesn't know what comes behind it.
 //
 // Rests are taken as late as allowed, or in the time before the service there `opens`, or before
-// one that `ends` too late without. Breaks are put off as `rests_on_leg` says.
+// one that `ends` too late without. A break is put off if it may begin when the truck, not delayed,
+// is done there; it is taken at once where it ends before the service there `opens`. One that is
+// too heavy is put off alone.
 template <class Opens, class Ends>
 class Unforeseeing {
 public:

@@ -240,21 +240,14 @@ Ride ride(const Setting& setting, const VehicleLog& log, const Vehicle& vehicle,
     const Int heavy =
         has_breaks(setting.type) ? too_heavy(setting, vehicle, drones, to, is_customer) : 0;
     const BreaksAhead pauses{vehicle.rested, heavy, begin};
-    if (asks) {
-        Int driven = 0;
-        const std::optional<Driver> driver = driver_of(setting, log, driven);
-        if (!driver) return {-1, {}};
-        const std::optional<Rests> rests =
-            Unforeseeing(setting.type, whole.by(*driver), opens, leaves).run(pauses);
-        if (!rests || (attends && rests->any_unstated())) return {-1, {}};
-        Driver counted = *driver;
-        return {come(setting, {*rests, begin, here, to, leave}, counted), *rests};
-    }
+    Int driven = 0;
+    std::optional<Driver> driver = Driver{};
+    if (asks) driver = driver_of(setting, log, driven);
+    if (!driver) return {-1, {}};
     const std::optional<Rests> rests =
-        rests_on_leg(setting.type, pauses, leave, whole.travel(), leaves, opens);
-    if (!rests) return {-1, {}};
-    Driver nobody{};
-    return {come(setting, {*rests, begin, here, to, leave}, nobody), *rests};
+        Unforeseeing(setting.type, whole.by(*driver), opens, leaves).run(pauses);
+    if (!rests || (attends && rests->any_unstated())) return {-1, {}};
+    return {come(setting, {*rests, begin, here, to, leave}, *driver), *rests};
 }
 
 // Tell whether a drone in flight reaches its customer too late for a hard window.

@@ -186,7 +186,7 @@ private:
     TimeSegment travel(Int p, TimeSegment leave) const {
         const Int to = stops_[p + 1].node;
         if (is_joined()) return behind(leave, truck_.duration_of_leg(stops_[p], to));
-        return {none, truck_.leg_behind(stops_[p], to, leave.c).travel()(leave.c)};
+        return {none, LegLeft(truck_.speeds, truck_.duration_of_leg(stops_[p], to)).end(leave.c)};
     }
 
     // Have a way drive the leg behind stop `p`, with no more breaks and with each more.

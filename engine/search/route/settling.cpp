@@ -61,10 +61,10 @@ Int latest_by_stops(const ProblemData& data, const Tour& tour, Int first) {
                                  time);
             };
             // Who leaves later may rest while it is slow, or needn't.
-            leave = follows_driver(type) ? arrival - before.gap
-                    : has_breaks(type)   ? departure_before(type, Rests(before.rests),
-                                                            begin_of(type, stops), arrival, back)
-                                         : back(arrival);
+            leave = follows_driver(type) && !is_steady(type) ? arrival - before.gap
+                    : has_breaks(type) ? departure_before(type, Rests(before.rests),
+                                                          begin_of(type, stops), arrival, back)
+                                       : back(arrival);
         }
     }
     return leave;
