@@ -71,15 +71,7 @@ Int least_lasting(const ProblemData& data, const Tour& tour) {
 Int least_working(const ProblemData& data, const Tour& tour) {
     const auto& [route, stops, trips, sorties] = tour;
     const VehicleType& type = data.type[route.type];
-    const NodeTable places = data.place.by_truck(type);
-    Int driving = 0, lasting = 0;
-    for (Int p = 0; p < route.length; ++p) {
-        const Stop& stop = stops[p];
-        if (stop.kind == customer_stop) lasting += places[stop.node].service_duration();
-        if (p + 1 == route.length) break;
-        lasting += stop.gap - resting_in_gap(type, stop);
-        if (stop.kind != end_stop) driving += driving_from(data, type, stops, p);
-    }
+    const auto [driving, lasting] = all_of(data, type, stops.first(route.length));
     return lasting + least_pause(type, driving, lasting);
 }
 

@@ -44,13 +44,17 @@ Int RestRoute::lasting_at(Int p) const {
     return is_last(p) ? served : served + stop.gap - resting_in_gap(type, stop);
 }
 
-Ahead RestRoute::whole() const {
-    Ahead ahead{0, 0};
+Ahead all_of(const ProblemData& data, const VehicleType& type, View<const Stop, 1> stops) {
+    const NodeTable places = data.place.by_truck(type);
+    Ahead all{0, 0};
     for (Int p = 0; p < stops.size(); ++p) {
-        ahead.driving += driving_at(p);
-        ahead.lasting += lasting_at(p);
+        const Stop& stop = stops[p];
+        if (stop.kind == customer_stop) all.lasting += places[stop.node].service_duration();
+        if (p + 1 == stops.size()) break;
+        all.lasting += stop.gap - resting_in_gap(type, stop);
+        if (stop.kind != end_stop) all.driving += driving_from(data, type, stops, p);
     }
-    return ahead;
+    return all;
 }
 
 void RestRoute::note_latest() const {
@@ -157,15 +161,6 @@ void RestRoute::take(const TakenRest& taken) const {
 
 namespace {
 
-// Return how long a driver of a route without rests is at the wheel.
-Int driving_on(const ProblemData& data, const VehicleType& type, View<const Stop, 1> stops) {
-    Int driving = 0;
-    for (Int p = 0; p < stops.size(); ++p) {
-        if (stops[p].kind != end_stop) driving += driving_from(data, type, stops, p);
-    }
-    return driving;
-}
-
 // Return when a timed route begins that begins as late as that costs nothing.
 Int last_begin(const ProblemData& data, const Tour& tour) {
     const Int departure = first_departure(data, tour);
@@ -221,7 +216,7 @@ bool drive_with_pauses(const ProblemData& data, const Tour& tour) {
     if (driven) {
         const Int driving = follows_driver(type) ? route.legs.duration
                             : has_driving_rules(type)
-                                ? driving_on(data, type, stops.first(route.length))
+                                ? all_of(data, type, stops.first(route.length)).driving
                                 : 0;
         const Int begin = counted_begin(type, begin_of(type, stops));
         if (!lacks_break(type, tour) && needs_no_rest(type, driving, route.end - begin)) {
@@ -257,7 +252,7 @@ bool drive_by_rules(const ProblemData& data, const Tour& tour) {
     clear_rests(type, stops.first(route.length));
     if (rests_in_time(type)) return drive_with_pauses(data, tour);
     if (!drive_as_placed(data, tour)) return false;
-    const Int driving = driving_on(data, type, stops.first(route.length));
+    const Int driving = all_of(data, type, stops.first(route.length)).driving;
     const Int soonest = counted_begin(type, begin_of(type, stops));
     const Int latest = last_begin(data, tour);
     route.driving = driving;

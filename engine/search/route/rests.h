@@ -162,6 +162,9 @@ struct Ahead {
     Int driving, lasting;
 };
 
+// Return what all of a loaded route is.
+Ahead all_of(const ProblemData& data, const VehicleType& type, View<const Stop, 1> stops);
+
 // A leg, driven while drones are out or not, and what lies behind it.
 struct LegAhead {
     Int p;  // the stop before it
@@ -226,8 +229,7 @@ public:
     // Return a driver who is about to begin.
     RestLabel beginning() const;
 
-    // Return what all of the route is.
-    Ahead whole() const;
+    Ahead whole() const { return all_of(truck.data, type, stops); }
 
     // Write until when each stop may be reached at all, as far as flights and orders don't count.
     void note_latest() const;
