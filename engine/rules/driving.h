@@ -43,6 +43,12 @@ inline bool hangs_on_begin(const VehicleType& type) {
     return rests_in_time(type) || limits_timed_travel(type);
 }
 
+// Whether it takes long to find out when all happens on a route: its driver may pause, or be at the
+// wheel for so long alone, however fast it is then.
+inline bool is_timed_slowly(const VehicleType& type) {
+    return may_pause(type) || limits_timed_travel(type);
+}
+
 // Whether all that its driver rests lasts as long whenever it is, so that it is part of legs.
 inline bool rests_in_gaps(const VehicleType& type) {
     return has_driving_rules(type) && !rests_in_time(type);

@@ -138,8 +138,7 @@ Int legal_services(const Rollout& rollout, View<Int, 1> actions, View<Outlook, 1
     const Int last = last_aboard(open);
     const bool laden = last != no_delivery;
     const bool trying = holds_count(setting) || order_is_open(setting, vehicle) || laden ||
-                        may_pause(setting.type) || keeps_hours(setting.type) ||
-                        limits_timed_travel(setting.type);
+                        is_timed_slowly(setting.type) || keeps_hours(setting.type);
     Int found = 0;
     const auto add_if_legal = [&](Verdict verdict, Service service) {
         const bool is_legal = verdict == Verdict::yes ||

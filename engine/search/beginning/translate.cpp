@@ -145,7 +145,7 @@ double leg_cost(const ProblemData& data, const Searcher& searcher) {
 
 bool finish_route(const ProblemData& data, Fleet& fleet, Int slot) {
     const VehicleType& type = data.type[fleet.route[slot].type];
-    if (!may_pause(type) && !limits_timed_travel(type)) {
+    if (!is_timed_slowly(type)) {
         return time_anew(data, fleet, slot);
     }
     const Int spare = fleet.route.size() - 1;

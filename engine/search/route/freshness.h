@@ -42,7 +42,7 @@ bool hold_trip(const ProblemData& data, const Tour& tour, const Trip& trip,
                               : waits_for_calm(data, tour, trip);
         if (wait == 0) wait = wait_for_charge();
         if (wait <= 0) return true;
-        if (wait == far || (may_pause(type) && data.deadline.passed())) return false;
+        if (wait == far || (is_timed_slowly(type) && data.deadline.passed())) return false;
         Stop& stop = tour.stops[trip.first];
         stop.release = std::max(stop.arrival, stop.release) + wait;
         if (!drive_forward(data, tour)) return false;

@@ -161,7 +161,7 @@ bool load_route(const ProblemData& data, const Fleet& fleet, Int slot) {
 // where it might not find them again once the search must end.
 bool is_copied(const ProblemData& data, const Route& route) {
     const VehicleType& type = data.type[route.type];
-    return routes_meet(data) || may_pause(type) || limits_timed_travel(type);
+    return routes_meet(data) || is_timed_slowly(type);
 }
 
 }  // namespace
