@@ -5,7 +5,7 @@ from dataclasses import dataclass, field
 from typing import Literal, get_args
 from urllib.parse import urlencode
 
-from app.maps.remote.servers import require_address, require_positive
+from app.maps.remote.servers import Server
 
 ServerKind = Literal["nominatim", "photon", "pelias"]
 
@@ -21,13 +21,11 @@ AGENT = "tandem-planner"
 
 
 @dataclass(frozen=True)
-class GeocodingServer:
-    """A server and its limits.
+class GeocodingServer(Server):
+    """A geocoding server and its limits.
 
     Parameters
     ----------
-    url
-        Where its paths begin, such as `https://nominatim.example.org`.
     key
         Sent with every question, if there is one.
     email
@@ -38,30 +36,20 @@ class GeocodingServer:
         Code of the language of its labels.
     per_second
         Questions a second at most, of all processes that share a cache; 0: as many as it answers.
-    at_once, patience, failures, rest, first_wait
-        As those of servers of roads.
     """
 
-    url: str
     key: str = field(default="", repr=False)
     email: str = ""
     country: str = ""
     language: str = ""
     per_second: float = 0.0
-    at_once: int = 4
-    patience: float = 10.0
-    failures: int = 3
-    rest: float = 10.0
-    first_wait: float = 0.2
 
     def __post_init__(self) -> None:
-        require_address(self.url, "a geocoder")
+        self.require("a geocoder")
         if self.host in NEEDS_CONTACT and "@" not in self.email:
             raise ValueError(f"{self.host} asks who uses it: add ?email=you@example.org")
         if self.per_second < 0:
             raise ValueError("per_second of a geocoder must not be negative")
-        require_positive(self, ("at_once", "patience", "failures", "rest", "first_wait"),
-                         "a geocoder")
 
     @property
     def host(self) -> str:
@@ -71,7 +59,7 @@ class GeocodingServer:
         return httpx.URL(self.url).host
 
     @property
-    def headers(self) -> Mapping[str, str]:
+    def sent(self) -> Mapping[str, str]:
         """Who asks."""
         return {"User-Agent": f"{AGENT} ({self.email})" if self.email else AGENT}
 

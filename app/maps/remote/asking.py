@@ -5,12 +5,12 @@ import logging
 import math
 import threading
 import time
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Sequence
 from concurrent.futures import FIRST_COMPLETED, Future, wait
 from dataclasses import dataclass
 from datetime import UTC, datetime
 from email.utils import parsedate_to_datetime
-from typing import TYPE_CHECKING, Generic, Protocol, TypeVar
+from typing import TYPE_CHECKING, Generic, TypeVar
 
 from circuitbreaker import CircuitBreaker
 from tenacity import (
@@ -19,6 +19,7 @@ from tenacity import (
 )
 
 from app.maps.remote.errors import SourceError, SourceKind, SourceUnavailableError
+from app.maps.remote.servers import Server
 
 if TYPE_CHECKING:
     import httpx
@@ -63,45 +64,6 @@ class _TransientError(Exception):
     def __init__(self, cause: str, pause: float = 0.0) -> None:
         super().__init__(cause)
         self.pause = pause
-
-
-class Server(Protocol):
-    """A server, and how it is asked."""
-
-    @property
-    def url(self) -> str:
-        """Where its paths begin, such as `http://localhost:5000`."""
-        ...
-
-    @property
-    def headers(self) -> Mapping[str, str]:
-        """Sent with every question, such as a key."""
-        ...
-
-    @property
-    def at_once(self) -> int:
-        """Most questions at the same time for one caller."""
-        ...
-
-    @property
-    def patience(self) -> float:
-        """Most seconds for one answer, before the question is asked again."""
-        ...
-
-    @property
-    def first_wait(self) -> float:
-        """Seconds until it is asked again, at random up to this, then up to twice as many."""
-        ...
-
-    @property
-    def failures(self) -> int:
-        """Times in a row that it fails to answer before it is left alone."""
-        ...
-
-    @property
-    def rest(self) -> float:
-        """Seconds for which it is left alone then."""
-        ...
 
 
 @dataclass(frozen=True)
@@ -242,7 +204,7 @@ class RemoteServer:
             if self._loop is None or self._client is None:
                 self._loop = asyncio.new_event_loop()
                 self._client = httpx.AsyncClient(
-                    base_url=self._server.url, headers=dict(self._server.headers), timeout=None,
+                    base_url=self._server.url, headers=dict(self._server.sent), timeout=None,
                     trust_env=False, follow_redirects=False)
                 threading.Thread(target=_run, args=(self._loop,), name="asking",
                                  daemon=True).start()

@@ -1,8 +1,47 @@
 """What is read and checked of every server that may be asked, before it is."""
 
-from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import KW_ONLY, dataclass
 from urllib.parse import parse_qsl, urlsplit, urlunsplit
+
+
+@dataclass(frozen=True)
+class Server:
+    """A server, and how it is asked.
+
+    Parameters
+    ----------
+    url
+        Where its paths begin, such as `http://localhost:5000`.
+    at_once
+        Most questions at the same time for one caller.
+    patience
+        Most seconds for one answer, before the question is asked again.
+    first_wait
+        Seconds until it is asked again, at random up to this, then up to twice as many, and so on.
+    failures, rest
+        After so many callers in a row that it failed to answer, it isn't asked for so many seconds.
+    """
+
+    url: str
+    _: KW_ONLY
+    at_once: int = 4
+    patience: float = 10.0
+    first_wait: float = 0.2
+    failures: int = 3
+    rest: float = 10.0
+
+    @property
+    def sent(self) -> Mapping[str, str]:
+        """Headers of every question, such as a key."""
+        return {}
+
+    def require(self, whose: str, *more: str) -> None:
+        """Check address and limits; raises `ValueError` that names the first that is wrong."""
+        require_address(self.url, whose)
+        for name in ("at_once", "patience", "first_wait", "failures", "rest", *more):
+            if not getattr(self, name) > 0:
+                raise ValueError(f"{name} of {whose} must be positive")
 
 
 @dataclass(frozen=True)
@@ -52,10 +91,3 @@ def require_address(address: str, whose: str) -> None:
         raise ValueError(f"{whose} has no such address: {error}") from error
     if url.scheme not in ("http", "https") or not url.host or url.query or url.fragment:
         raise ValueError(f"the address of {whose} must be as http://host:port is")
-
-
-def require_positive(server: object, names: Iterable[str], whose: str) -> None:
-    """Check limits of a server; raises `ValueError` that names the first that isn't positive."""
-    for name in names:
-        if not getattr(server, name) > 0:
-            raise ValueError(f"{name} of {whose} must be positive")
