@@ -162,19 +162,6 @@ def closed() -> dict[str, Any]:
             "options": {"time_limit": 60, "search_iterations": 50}}
 
 
-CODES = re.compile(r'(?:(?:Doubt|CellError|refuse|Incomplete)\(|return \(?)\s*"([A-Z_]{4,})",')
-"""Names of what an import takes for granted, or can't use, in its sources."""
-
-
-def test_import_says_all_that_it_takes_for_granted_in_german() -> None:
-    sources = "".join(path.read_text("utf-8")
-                      for path in (ROOT / "app" / "formats" / "sheets").glob("*.py"))
-    codes = set(CODES.findall(sources))
-    assert {"SHIFT_ASSUMED", "ADDRESS_FAR", "NO_COORDINATES", "CAPACITY"} <= codes
-    german = (STATIC / "texts" / "granted-de.js").read_text("utf-8")
-    assert sorted(codes - set(re.findall(r"^  ([A-Z_]+):", german, re.MULTILINE))) == []
-
-
 DOUBTFUL = """Kunde;Adresse;x;y;Von;Bis;kg;Soll
 Anna;;11,58;48,14;8:00;2:00;5;1
 Anna;;11,60;48,15;8:00;10:00;;2

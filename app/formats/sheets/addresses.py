@@ -83,11 +83,12 @@ def with_depot(settings: ImportSettings, finder: Finder) -> tuple[ImportSettings
         raise Incomplete("GEOCODER", f"The depot can't be looked up now: {looked_up.error}")
     if not found:
         raise Incomplete("DEPOT", f"The depot {settings.depot!r} is not found: correct it, or "
-                         "write its latitude and longitude.")
+                         "write its latitude and longitude.",
+                         {"case": "lost", "depot": settings.depot})
     doubt = in_words(settings.depot, found)
     return (settings.model_copy(update={"depot": f"{found[0].lat:.7f}, {found[0].lon:.7f}"}),
             [Doubt("DEPOT_FOUND", f"The depot is {found[0].label}"
-                   + (f": {doubt}." if doubt else "."))])
+                   + (f": {doubt}." if doubt else "."), values={"place": found[0].label})])
 
 
 def locate(rows: Sequence[Row], ground: TableGeography, finder: Finder, *,
@@ -128,13 +129,15 @@ def locate(rows: Sequence[Row], ground: TableGeography, finder: Finder, *,
         doubt = _doubt(asked[number], found, known[number], number in far_rows)
         cell = lacking[number].cell(*CELLS)
         if doubt is not None:
-            located.doubts.append(Doubt(doubt[0], f"{cell}: {doubt[1]}.", cell=cell))
+            located.doubts.append(Doubt(doubt[0], f"{cell}: {doubt[1]}.", cell=cell, values={
+                "address": asked[number], "place": found[0].label}))
         replies.append(_reply(cell, asked[number], found[0], doubt[1] if doubt else None))
     located.reply = LookUpReply(asked=len(asked), known=len(known), places=replies)
     if located.pending:
         located.errors.append(CellError(
             "ADDRESSES_PENDING", f"{len(known)} of {len(asked)} addresses are looked up so far: "
-            f"{looked_up.error} Import the file again to go on."))
+            f"{looked_up.error} Import the file again to go on.",
+            values={"known": len(known), "asked": len(asked)}))
     return located
 
 
@@ -147,7 +150,7 @@ def _by_hand(lacking: Mapping[int, Row]) -> LocatedRows:
         located.doubts.append(Doubt(
             "PLACED_BY_HAND", f"{len(customers)} rows have an address and no coordinates, such as "
             f"{cell}: addresses are not looked up here, so that they are to be placed by hand.",
-            cell=cell))
+            cell=cell, values={"count": len(customers)}))
     for row in lacking.values():
         if row.is_depot:
             cell = row.cell(*CELLS)
@@ -188,9 +191,10 @@ def _leave(located: LocatedRows, row: Row, address: str, found: Candidates, keep
     if keeps:
         cell = row.cell(*CELLS)
         located.unplaced[row.number] = address
-        located.doubts.append(Doubt(code, f"{cell}: {message}", cell=cell))
+        located.doubts.append(Doubt(code, f"{cell}: {message}", cell=cell,
+                                    values={"address": address}))
     else:
-        row.refuse(code, message, *CELLS)
+        row.refuse(code, message, *CELLS, values={"address": address})
 
 
 def _not_found(address: str, found: Candidates) -> tuple[str, str]:

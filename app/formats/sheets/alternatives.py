@@ -56,7 +56,7 @@ def add_alternatives(others: Sequence[Entry], stops: Sequence[Entry],
              for other in others]
     return [Doubt("OTHER_PLACES", f"{len(cells)} rows or columns are other places of customers, "
                   f"such as {cells[0]}: amounts and all else are as of the customer's own.",
-                  cell=cells[0])] if cells else [], errors
+                  cell=cells[0], values={"count": len(cells)})] if cells else [], errors
 
 
 def _named(row: Row) -> str | None:

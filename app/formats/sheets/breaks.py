@@ -82,7 +82,8 @@ def is_ticked(van: Van, meaning: str, default: bool = False) -> bool:
     """
     said = simple(van.texts.get(meaning, ""))
     if said and said not in YES | NO:
-        raise MisreadError(f"{van.texts[meaning]!r} ({van.cells[meaning]}) is neither yes nor no")
+        text, cell = van.texts[meaning], van.cells[meaning]
+        raise MisreadError(f"{text!r} ({cell}) is neither yes nor no", cell, text)
     return said in YES if said else default
 
 
@@ -104,7 +105,8 @@ def driving_rules_of(van: Van) -> Data | None:
         found = _SPLIT.fullmatch(split.strip())
         if found is None:
             raise MisreadError(f"{split!r} ({van.cells['rest_split']}) are no two parts of a "
-                               "rest: write their minutes, such as 15 + 30")
+                               "rest: write their minutes, such as 15 + 30",
+                               van.cells["rest_split"], split)
         rules["split"] = [int(found[1]) * MINUTE, int(found[2]) * MINUTE]
     return rules | {name: van.values[name] for name in BEFORE if van.values.get(name)}
 
@@ -121,7 +123,7 @@ def _preset(van: Van) -> str | None:
     if "hos" in named.split() or "hours of service" in named:
         return "us-hos"
     raise MisreadError(f"{stated!r} ({van.cells['driving_rules']}) is no driving rule known "
-                       f"here: write one of {', '.join(LAWS)}")
+                       f"here: write one of {', '.join(LAWS)}", van.cells["driving_rules"], stated)
 
 
 def break_doubts(vans: Sequence[Van]) -> list[Doubt]:
@@ -130,15 +132,18 @@ def break_doubts(vans: Sequence[Van]) -> list[Doubt]:
     pauses = [(van, pause) for van in vans for pause in _pauses(van)]
     if any(length is None for _, (_, _, length) in pauses):
         doubts.append(Doubt("BREAKS_ASSUMED", "Breaks have no length: a window of up to an hour is "
-                            f"taken for the break, in longer ones it is {USUAL / MINUTE:.0f} min."))
+                            f"taken for the break, in longer ones it is {USUAL / MINUTE:.0f} min.",
+                            values={"case": "length", "minutes": round(USUAL / MINUTE)}))
     if any(earliest is latest is None and "break_within" not in van.values
            for van, (earliest, latest, _) in pauses):
         doubts.append(Doubt("BREAKS_ASSUMED", "Breaks have no time: they are taken to begin within "
-                            f"{clock_text(WITHIN)} h of the vehicle's departure."))
+                            f"{clock_text(WITHIN)} h of the vehicle's departure.",
+                            values={"case": "time", "hours": clock_text(WITHIN)}))
     if any("rest" not in van.values and not _preset(van)
            and any(van.values.get(name) for name in LIMITS) for van in vans):
         doubts.append(Doubt("RESTS_ASSUMED", "Rests have no length: they are taken to last "
-                            f"{USUAL_REST / MINUTE:.0f} min."))
+                            f"{USUAL_REST / MINUTE:.0f} min.",
+                            values={"minutes": round(USUAL_REST / MINUTE)}))
     if any(driving_rules_of(van) is None
            and ("rest_split" in van.texts or any(map(van.values.get, ("rest", *BEFORE))))
            for van in vans):

@@ -1,6 +1,7 @@
 """Cells of a sheet: what they hold, how people see them, what they are called."""
 
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, field
 from datetime import date, datetime, time, timedelta
 from math import isfinite
 from typing import Any
@@ -11,6 +12,9 @@ Raw = str | float | bool | datetime | date | time | timedelta | None
 BEFORE_ALL_DATES = date(1900, 1, 1)
 """Up to here, spreadsheets mean the time of day alone."""
 
+Values = Mapping[str, str | float | list[str]]
+"""What a message is made of, by name."""
+
 
 @dataclass(frozen=True)
 class Doubt:
@@ -20,6 +24,7 @@ class Doubt:
     message: str
     column: str | None = None  # letters
     cell: str | None = None
+    values: Values = field(default_factory=dict, hash=False)
 
 
 @dataclass(frozen=True)
@@ -29,6 +34,7 @@ class CellError:
     code: str
     message: str
     cell: str | None = None
+    values: Values = field(default_factory=dict, hash=False)
 
 
 LONGEST_READ = 1000
@@ -48,6 +54,11 @@ def bounded(raw: Raw) -> Raw:
 
 class MisreadError(ValueError):
     """A cell that doesn't say what its column means."""
+
+    def __init__(self, message: str, cell: str | None = None, value: str = "") -> None:
+        super().__init__(message)
+        self.cell = cell
+        self.value = value
 
 
 def raw_of(value: Any) -> Raw:

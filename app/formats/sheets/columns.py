@@ -225,7 +225,8 @@ def _by_content(table: Table, index: int, cells: Sequence[Raw]) -> Iterable[Colu
         share = _share(cells, fits)
         if share > MOST:
             doubt = Doubt("MEANING_BY_CONTENT", f"Column {letters(index)} is taken for "
-                          f"{MEANINGS[meaning].title.lower()} by its cells alone.", letters(index))
+                          f"{MEANINGS[meaning].title.lower()} by its cells alone.", letters(index),
+                          values={"meaning": meaning})
             yield _with_unit(table, Column(index, heading, meaning, None,
                                            min(sure * share, 0.995), (doubt,)))
 
@@ -269,7 +270,7 @@ def _unit_doubts(column: Column, guess: UnitGuess) -> tuple[Doubt, ...]:
     if guess.doubt is None:
         return ()
     return (Doubt("UNIT_GUESSED", f"Column {column.name} is read in {guess.unit}: {guess.doubt}.",
-                  letters(column.index)),)
+                  letters(column.index), values={"unit": guess.unit}),)
 
 
 def _fit(cells: Sequence[Raw], column: Column, style: Style) -> float:
@@ -291,8 +292,7 @@ def _fit(cells: Sequence[Raw], column: Column, style: Style) -> float:
         return 0.0 if MONEY in units else 1.0
     if kind == "amount" and column.unit is None and are_instants(cells):
         return 0.0
-    if kind == "names" and all(isinstance(raw, time) or _CLOCK.fullmatch(shown(raw))
-                               or (isinstance(raw, float) and raw < 1) for raw in cells):
+    if kind == "names" and (are_instants(cells) or all(map(_is_moment, cells))):
         return 0.0  # before which time, not whom
     said = 0.0
     for raw in cells:
@@ -304,6 +304,13 @@ def _fit(cells: Sequence[Raw], column: Column, style: Style) -> float:
         except (MisreadError, TypeError):
             continue
     return said / len(cells)
+
+
+def _is_moment(raw: Raw) -> bool:
+    """Tell whether a cell is a time, with a date or without, and so no name."""
+    if isinstance(raw, str):
+        return raw[:1].isdigit() and _CLOCK.search(raw) is not None
+    return isinstance(raw, (time, datetime)) or (isinstance(raw, float) and raw < 1)
 
 
 def _says_clock(raw: Raw) -> bool:
@@ -338,7 +345,8 @@ def _unfit(table: Table, index: int) -> tuple[Doubt, ...]:
     title = MEANINGS[likely.meaning].title.lower()
     return (Doubt("NOT_USED", f"Column {letters(index)} ({heading}) is not used: by its heading it "
                   f"is {title}, which another column is already, or its cells don't say it "
-                  f"({table.name(row, index)} is {shown(raw)[:40]!r}).", letters(index)),)
+                  f"({table.name(row, index)} is {shown(raw)[:40]!r}).", letters(index),
+                  table.name(row, index), {"meaning": likely.meaning, "value": shown(raw)[:40]}),)
 
 
 def _language(heading: str) -> str:

@@ -110,7 +110,8 @@ def together(entries: Sequence[Entry],
         doubts.append(Doubt(
             "ROWS_JOINED", f"Rows of one name and place make one stop, {len(several)} in all, "
             f"such as {first.customer['id']} ({cells}): amounts are added up, the longest time at "
-            "the stop counts once."))
+            "the stop counts once.",
+            values={"count": len(several), "name": first.customer["id"], "cells": cells}))
     return stops, [*doubts, *_renamed(stops)]
 
 
@@ -140,14 +141,16 @@ def _place(row: Row, ground: TableGeography) -> Pair | None:
         if not is_told:
             row.refuse("NO_COORDINATES", "The row has neither coordinates nor an address: add "
                        "either." if ground.looks_up else "The row has no coordinates, and "
-                       "addresses are not looked up: add its latitude and longitude.", *cells)
+                       "addresses are not looked up: add its latitude and longitude.", *cells,
+                       values={"case": "neither" if ground.looks_up else "row"})
     elif ground.is_geographic and place == (0, 0):
         row.refuse("NO_COORDINATES", "0, 0 is in the sea off Africa: add the customer's latitude "
-                   "and longitude.", *cells)
+                   "and longitude.", *cells, values={"case": "zero"})
         return None
     elif ground.is_geographic and not on_globe(place):
         row.refuse("OFF_GLOBE", f"{place[1]:.10g} is no latitude, or {place[0]:.10g} no "
-                   "longitude: state degrees with a decimal point.", *cells)
+                   "longitude: state degrees with a decimal point.", *cells,
+                   values={"latitude": f"{place[1]:.10g}", "longitude": f"{place[0]:.10g}"})
         return None
     return place
 
@@ -167,13 +170,15 @@ def _windows(row: Row) -> Data:
             night = f", or {next_day(later)}," if later > DAY else ""
             row.refuse("ENDS_BEFORE", f"The window ends ({clock_text(latest)}) before it begins "
                        f"({clock_text(earliest)}): write {clock_text(later)}{night} if that is "
-                       "meant.", *cells)
+                       "meant.", *cells, values={
+                           "begin": clock_text(earliest), "end": clock_text(latest)})
     ends = sorted((earliest or 0.0, latest) for earliest, latest in stated
                   if earliest is not None or latest is not None)
     merged = disjoint(ends)
     if len(merged) > MOST_WINDOWS:
         row.refuse("TOO_MANY_WINDOWS", f"There are {len(merged)} windows, and {MOST_WINDOWS} are "
-                   "possible at most.", "window")
+                   "possible at most.", "window",
+                   values={"count": len(merged), "most": MOST_WINDOWS})
     costs = {field: row.values[meaning] for meaning, field in
              (("late_cost", "late_cost_per_hour"), ("early_cost", "early_cost_per_hour"))
              if row.get(meaning) is not None}
@@ -194,7 +199,7 @@ def overnight(stops: Iterable[Entry]) -> list[Doubt]:
     row, place = late[0]
     cell = row.cell("latest", "window", "earliest")
     return [Doubt("PAST_MIDNIGHT", f"{len(late)} windows end on the day after, such as {cell} at "
-                  f"{next_day(_latest(place))}.", cell=cell)]
+                  f"{next_day(_latest(place))}.", cell=cell, values={"count": len(late)})]
 
 
 def _latest(customer: Data) -> float:
@@ -316,4 +321,5 @@ def _renamed(stops: Sequence[Entry]) -> list[Doubt]:
     cell = first.rows[0].cell("name", "order")
     return [Doubt("NAMES_REPEAT", "Stops with the name of another, at another place or time, get "
                   f"names of their own, {len(changed)} in all: such as {cell}, called "
-                  f"{first.customer['id']!r}.", cell=cell)]
+                  f"{first.customer['id']!r}.", cell=cell,
+                  values={"count": len(changed), "name": first.customer["id"]})]

@@ -35,5 +35,6 @@ def damaged(table: Table, columns: Sequence[Column]) -> list[Doubt]:
             doubts.append(Doubt(
                 "DIGITS_LOST", f"Column {column.name} holds {len(cells)} numbers that a "
                 f"spreadsheet has shortened, such as {cell} ({shown(raw)}): their last digits are "
-                "lost. Take them from where they come from, as text.", letters(column.index), cell))
+                "lost. Take them from where they come from, as text.", letters(column.index), cell,
+                {"count": len(cells), "value": shown(raw)}))
     return doubts

@@ -46,7 +46,8 @@ def divided(rows: Sequence[Row], num_rows: int,
     if backs:
         cell = backs[0].cell("back_from")
         doubts.append(Doubt("RIDES_BACK", f"{len(backs) // 2} rows state a ride back, such as "
-                            f"{cell}: each is a shipment of its own, the other way.", cell=cell))
+                            f"{cell}: each is a shipment of its own, the other way.", cell=cell,
+                            values={"count": len(backs) // 2}))
     orders = {name: alike for name, alike in _called(
         [row for row in open_rows if not row.side], "order").items()
         if {PICKUP, DELIVERY} <= {row.get("kind") for row in alike}}
@@ -127,16 +128,18 @@ def _paired(wholes: Whole) -> tuple[list[Doubt], list[CellError]]:
                 errors.append(CellError(
                     "SHIPMENT_ROWS", f"The shipment {rows[0].get('shipment')} has {len(rows)} "
                     "rows: say of each whether it is a pickup or a delivery.",
-                    rows[0].cell("shipment")))
+                    rows[0].cell("shipment"),
+                    {"name": str(rows[0].get("shipment")), "count": len(rows)}))
                 continue
         for row, side in zip(rows, sides, strict=True):
             row.side, row.whole = side, name
     if alone:
         doubts.append(Doubt("SHIPMENT_OF_ONE_ROW", f"{len(alone)} shipments have one row and one "
                             f"place, such as {alone[0].cell('shipment')}: they are customers.",
-                            cell=alone[0].cell("shipment")))
+                            cell=alone[0].cell("shipment"), values={"count": len(alone)}))
     if ordered:
         doubts.append(Doubt("SHIPMENT_IN_ORDER", f"{len(ordered)} shipments don't say which row is "
                             f"the pickup, such as {ordered[0].cell('shipment')}: the first is "
-                            "taken.", cell=ordered[0].cell("shipment")))
+                            "taken.", cell=ordered[0].cell("shipment"),
+                            values={"count": len(ordered)}))
     return doubts, errors

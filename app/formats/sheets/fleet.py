@@ -6,7 +6,7 @@ from typing import Any
 
 from app.formats.sheets.amounts import dimensions
 from app.formats.sheets.breaks import break_doubts, breaks_of, driving_rules_of, is_ticked
-from app.formats.sheets.cells import CellError, Doubt, MisreadError, clock_text, next_day
+from app.formats.sheets.cells import CellError, Doubt, MisreadError, Values, clock_text, next_day
 from app.formats.sheets.clocks import DAY, LONGEST_NIGHT, Style, windows
 from app.formats.sheets.columns import Column
 from app.formats.sheets.customers import Entry
@@ -37,9 +37,9 @@ Data = dict[str, Any]
 class Incomplete(ValueError):
     """What lacks for a request, as an error."""
 
-    def __init__(self, code: str, message: str) -> None:
+    def __init__(self, code: str, message: str, values: Values | None = None) -> None:
         super().__init__(message)
-        self.error = CellError(code, message)
+        self.error = CellError(code, message, values=values or {})
 
 
 def fleet_of(stops: Sequence[Entry], columns: Sequence[Column], settings: ImportSettings,
@@ -91,7 +91,7 @@ def _named(stops: Sequence[Entry], columns: Sequence[Column], settings: ImportSe
     if settings.vehicles is not None or not all(told) or not 1 < len(names) <= MOST_NAMED:
         return []
     doubts.append(Doubt("FLEET_NAMED", f"The vehicles are those that orders name: "
-                        f"{', '.join(names[:10])}."))
+                        f"{', '.join(names[:10])}.", values={"names": names[:10]}))
     if settings.capacity is None:
         doubts.append(_all_fits())
     capacity = _capacity(stops, columns, settings)
@@ -110,7 +110,7 @@ def _assumed(stops: Sequence[Entry], columns: Sequence[Column], settings: Import
     if count is None:
         count = max(1, least, math.ceil(len(stops) / CUSTOMERS_PER_VEHICLE))
         doubts.append(Doubt("FLEET_ASSUMED", f"No number of vehicles is stated: {count} "
-                            f"{'is' if count == 1 else 'are'} assumed."))
+                            f"{'is' if count == 1 else 'are'} assumed.", values={"count": count}))
     if settings.capacity is None:
         doubts.append(_all_fits())
     return {"id": TYPE_ID, "count": count, "capacity": _capacity(stops, columns, settings)}
@@ -122,7 +122,7 @@ def _usual_work(settings: ImportSettings,
     doubts = []
     if settings.max_trips is None and any("max_trips" not in kind for kind in kinds):
         doubts.append(Doubt("TRIPS_ASSUMED", f"Vehicles may go out again, up to {TRIPS} "
-                            "times in all."))
+                            "times in all.", values={"count": TRIPS}))
     hour = settings.per_hour
     kilometre = settings.per_km
     usual = COST_OF_HOUR.get(settings.currency or "", USUAL_HOUR)
@@ -132,12 +132,13 @@ def _usual_work(settings: ImportSettings,
     if settings.per_hour is None and _lack_cost(kinds, "per_hour"):
         doubts.append(Doubt("HOURS_ASSUMED", "What drivers cost isn't stated: an hour is taken to "
                             f"cost {hour:g}{money}, and whoever is needed at all to be paid for an "
-                            "hour more."))
+                            "hour more.", values={"amount": hour, "currency": money.strip()}))
     if kilometre is None:
         kilometre = float(f"{usual / USUAL_HOUR:.1g}")
     if settings.per_km is None and _lack_cost(kinds, "per_km"):
         doubts.append(Doubt("KILOMETRES_ASSUMED", "What a kilometre costs isn't stated: "
-                            f"{kilometre:g}{money} is taken."))
+                            f"{kilometre:g}{money} is taken.",
+                            values={"amount": kilometre, "currency": money.strip()}))
     costs = {"fixed": hour, "per_km": kilometre, "per_hour": hour}
     return {"max_trips": settings.max_trips or TRIPS, "costs": costs}, doubts
 
@@ -241,7 +242,8 @@ def _capacity(stops: Sequence[Entry], columns: Sequence[Column],
             told = f" ({', '.join(names)})" if names else ""
             numbers = "1 number tells" if len(amounts) == 1 else f"{len(amounts)} numbers tell"
             raise Incomplete("CAPACITY", f"{numbers} what {what}, and there are "
-                             f"{len(totals)} amounts to deliver{told}: state one for each.")
+                             f"{len(totals)} amounts to deliver{told}: state one for each.",
+                             {"numbers": len(amounts), "amounts": len(totals)})
     return list(capacity)
 
 
@@ -254,11 +256,12 @@ def _abilities(stops: Sequence[Entry], settings: ImportSettings,
     if skills and not any(kind.get("skills") for kind in kinds):
         found["skills"] = skills
         doubts.append(Doubt("SKILLS_ASSUMED", "All vehicles are taken to have the skills that "
-                            f"customers need: {', '.join(skills[:10])}."))
+                            f"customers need: {', '.join(skills[:10])}.",
+                            values={"names": skills[:10]}))
     for_drones = sum(stop.customer.get("served_by") == "drone" for stop in stops)
     if for_drones and not settings.drones:
         doubts.append(Doubt("NO_DRONES", f"{for_drones} customers are for drones alone, and there "
-                            "are none."))
+                            "are none.", values={"count": for_drones}))
     return found, doubts
 
 
@@ -267,7 +270,7 @@ def _shift(text: str) -> Data:
         [ends] = windows(text, "clock", Style())
     except (MisreadError, ValueError) as error:
         raise Incomplete("SHIFT", f"The shift {text!r} can't be read: write one such as "
-                         "8:00-17:00, or 21:00-6:00.") from error
+                         "8:00-17:00, or 21:00-6:00.", {"value": text}) from error
     return _ends(ends, f"The shift {text}")
 
 
@@ -280,7 +283,7 @@ def _ends(ends: tuple[float | None, float | None], what: str) -> Data:
         if latest + DAY - earliest > LONGEST_NIGHT:
             raise Incomplete("SHIFT_ENDS_BEFORE_START", f"{what} ends before it begins: write its "
                              f"end as {clock_text(latest + DAY)}, or {next_day(latest + DAY)}, if "
-                             "the day after is meant.")
+                             "the day after is meant.", {"end": clock_text(latest + DAY)})
         latest += DAY
     return {"earliest": earliest, "latest": latest}
 
@@ -290,4 +293,4 @@ def _overnight(what: str, shift: Data) -> list[Doubt]:
     if latest <= DAY:
         return []
     return [Doubt("SHIFT_OVERNIGHT", f"{what} ends on the day after, at {next_day(latest)} "
-                  f"({clock_text(latest)}).")]
+                  f"({clock_text(latest)}).", values={"end": next_day(latest)})]

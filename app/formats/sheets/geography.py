@@ -96,7 +96,7 @@ def far_off(places: Sequence[tuple[Row, Pair]]) -> list[Doubt]:
            if (kilometres := _kilometres(_turned(pair), _turned(middle))) > FAR_KM]
     return [Doubt("FAR_OFF", f"{row.cell('latitude', 'point', 'y')} lies {kilometres:,.0f} km from "
                   "the middle of the customers: check its coordinates.",
-                  cell=row.cell("latitude", "point", "y"))
+                  cell=row.cell("latitude", "point", "y"), values={"kilometres": round(kilometres)})
             for row, kilometres in far[:MOST_NAMED]]
 
 

@@ -103,7 +103,8 @@ def _read_others(work: Import, found: Chosen) -> None:
             work.fairness, doubts = fairness_of(found.rules, work.style)
             work.doubts += doubts
     except MisreadError as error:
-        work.errors.append(CellError("MISREAD", f"{error}."))
+        work.errors.append(CellError("MISREAD", f"{error}.", error.cell,
+                                     {"case": "aside", "value": error.value}))
 
 
 def _understand(work: Import, settings: ImportSettings, finder: Finder,
@@ -166,7 +167,7 @@ def _unused_rides(own: Sequence[Entry]) -> list[Doubt]:
                             if stated[0].get(meaning) is not None))
     return [Doubt("RIDE_UNUSED", f"{len(stated)} rows state a ride, such as {cell}, and have "
                   "one place: say where each is fetched, or nothing is made of it.",
-                  cell=cell)]
+                  cell=cell, values={"count": len(stated)})]
 
 
 def _complete(work: Import, depots: Sequence[Row], ground: TableGeography, settings: ImportSettings,
@@ -207,7 +208,8 @@ def _too_many(stops: Sequence[Entry]) -> CellError:
     cell = first.cell("name", "order", "latitude", "point", "y")
     return CellError("WRONG_LENGTH", f"There are {len(stops):,} stops, and {MAX_CUSTOMERS:,} are "
                      f"planned at once at most; {cell} is one too many. Cut the file in parts, by "
-                     "area or by day, and plan each with the vehicles that serve it.", cell=cell)
+                     "area or by day, and plan each with the vehicles that serve it.", cell,
+                     {"count": len(stops), "most": MAX_CUSTOMERS})
 
 
 def _of_day(work: Import, rows: list[Row], sums: list[Row],
@@ -235,7 +237,8 @@ def _of_day(work: Import, rows: list[Row], sums: list[Row],
     kept = [row for row in rows if row.get("date") in (None, planned)]
     if len(kept) < len(rows):
         work.doubts.append(Doubt("OTHER_DAYS", f"{len(rows) - len(kept)} rows of other days than "
-                                 f"{planned.isoformat()} are left out."))
+                                 f"{planned.isoformat()} are left out.",
+                                 values={"count": len(rows) - len(kept)}))
     return kept
 
 
@@ -252,7 +255,8 @@ def _asked_day(work: Import, rows: Sequence[Row], days: Sequence[date]) -> date 
         stated.isoformat() if stated is not None and stated in days else None)
     if stated is None and answer is None:
         work.errors.append(CellError("SEVERAL_DAYS", f"There are {len(days)} days ({listed}): "
-                                     "state the one that is planned.", cell))
+                                     "state the one that is planned.", cell,
+                                     {"count": len(days)}))
     return stated or (None if answer is None else date.fromisoformat(answer))
 
 
@@ -284,7 +288,8 @@ def _ground(work: Import, rows: Sequence[Row], settings: ImportSettings,
         raise Incomplete("NO_COORDINATES", "No columns hold coordinates" + (
             ": there are addresses, which are not looked up here. Add columns with latitude and "
             "longitude, or have the service set up with a geocoder (TANDEM_GEOCODER)."
-            if addresses else ": say which hold latitude and longitude, or x and y."))
+            if addresses else ": say which hold latitude and longitude, or x and y."),
+            {"case": "addresses" if addresses else "columns"})
     return ground
 
 
@@ -312,4 +317,4 @@ def _note_amounts(work: Import, rows: Sequence[Row]) -> None:
             name = work.table.name(empty[0].number, column.index)
             work.doubts.append(Doubt("EMPTY_AMOUNT", f"{len(empty)} cells of column {column.name} "
                                      f"are empty, such as {name}: they count 0.", letters(
-                                         column.index), name))
+                                         column.index), name, {"count": len(empty)}))

@@ -123,7 +123,7 @@ def _with_unused_times(table: Table, column: Column) -> Column:
     letter = letters(column.index)
     return replace(column, doubts=(Doubt(
         "NOT_USED", f"Column {column.name} holds times such as {times[0]!r}, and is not used: say "
-        "what it means.", letter),))
+        "what it means.", letter, values={"case": "times", "value": times[0]}),))
 
 
 def _are_words(cells: Sequence[str]) -> bool:
@@ -140,4 +140,4 @@ def _taken(column: Column, meaning: str) -> Column:
     unit = "clock" if MEANINGS[meaning].kind == "clock" else None
     return replace(column, meaning=meaning, unit=unit, confidence=BY_CONTENT, doubts=(
         *column.doubts, Doubt("MEANING_BY_CONTENT", f"Column {letter} is taken for {title} by its "
-                              "cells alone.", letter)))
+                              "cells alone.", letter, values={"meaning": meaning})))

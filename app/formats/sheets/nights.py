@@ -37,7 +37,7 @@ def into_the_night(fleet: Sequence[Data], served: Iterable[Entry]) -> list[Doubt
     cell = row.cell("window", "earliest", "latest")
     return [Doubt("NEXT_NIGHT", f"{len(moved)} windows are taken for the day after, since nobody "
                   f"works before {clock_text(opens)}: such as {cell} from {next_day(begins)}.",
-                  cell=cell)]
+                  cell=cell, values={"count": len(moved)})]
 
 
 def _ends(kind: Data) -> tuple[float, float]:

@@ -51,16 +51,18 @@ def fairness_of(sheet: Sheet, style: Style) -> tuple[Data, list[Doubt]]:
         else:
             stated[line.name] = _value(line, style)
     measure, cost = stated.pop("balance", None), stated.pop("balance_cost", None)
-    doubts = [Doubt("RULES_IN_FILE", f"The sheet {sheet.name} is read as rules of the whole plan.")]
+    doubts = [Doubt("RULES_IN_FILE", f"The sheet {sheet.name} is read as rules of the whole plan.",
+                    values={"sheet": sheet.name})]
     if (measure is None) != (cost is None):
         lacks = "what is balanced" if measure is None else "its cost"
         doubts.append(Doubt("BALANCE_INCOMPLETE", f"The sheet {sheet.name} doesn't say {lacks}: "
-                            "nothing is balanced. State both."))
+                            "nothing is balanced. State both.", values={"sheet": sheet.name}))
     elif measure is not None:
         stated["balance"] = {"measure": measure, "cost": cost}
     if unused:
         doubts.append(Doubt("RULES_UNUSED", f"Of the sheet {sheet.name} nothing is made of "
-                            f"{', '.join(unused[:10])}."))
+                            f"{', '.join(unused[:10])}.",
+                            values={"sheet": sheet.name, "names": unused[:10]}))
     return stated, doubts
 
 
@@ -87,9 +89,10 @@ def _value(line: NamedLine, style: Style) -> Any:
                 raise MisreadError(f"{shown(line.raw)} is no number of vehicles: write a whole one")
             return round(found)
     except MisreadError as error:
-        raise MisreadError(f"{line.cell}: {error}") from error
+        raise MisreadError(f"{line.cell}: {error}", line.cell, shown(line.raw)[:80]) from error
     measure = MEASURE_NAMES.get(simple(shown(line.raw)))
     if measure is None:
         raise MisreadError(f"{line.cell}: {shown(line.raw)[:80]!r} is nothing that can be balanced "
-                           f"here: write one of {', '.join(MEASURES)}")
+                           f"here: write one of {', '.join(MEASURES)}", line.cell,
+                           shown(line.raw)[:80])
     return measure

@@ -60,7 +60,7 @@ class Questionnaire:
             if question.id in self.given:
                 self.errors.append(CellError(
                     "ANSWER", f"{given[:40]!r} is no answer to {question.id!r}: give one of "
-                    f"{', '.join(question.choices)}.", question.cell))
+                    f"{', '.join(question.choices)}.", question.cell, {"value": given[:40]}))
             given = None
         answer = question.default if given is None else given
         self.asked.append(AnsweredQuestion(question, answer, given is not None))

@@ -40,7 +40,7 @@ def rejoined(table: Table, delimiter: str | None) -> tuple[Table, list[Doubt], l
     first = table.name(wide[0], 0)
     told = Doubt("DECIMAL_COMMAS", "Rows have more cells than there are headings, such as "
                  f"{first}: commas are taken for decimal ones where numbers stand, so that each "
-                 f"row has {count} cells.", cell=first)
+                 f"row has {count} cells.", cell=first, values={"count": count})
     return replace(table, sheet=sheet, headings=table.headings[:count]), [told], []
 
 

@@ -73,7 +73,7 @@ def relations_of(stops: Sequence[Entry],
 
 def _alone(cell: str, text: str) -> Doubt:
     return Doubt("RELATED_TO_NOBODY", f"{text!r} ({cell}) is neither another customer nor on "
-                 "another row, and binds nobody.", cell=cell)
+                 "another row, and binds nobody.", cell=cell, values={"name": text})
 
 
 def _orders(stops: Sequence[Entry], known: Mapping[str, Sequence[str]],
@@ -123,7 +123,7 @@ def _lags_alone(stops: Sequence[Entry], orders: Iterable[StatedOrder]) -> list[D
              if row.number not in ordered and _lags([row])]
     return [Doubt("LAG_WITHOUT_ORDER", f"{len(cells)} rows state a time between two, such as "
                   f"{cells[0]}, and nobody who is served before or after: it isn't used.",
-                  cell=cells[0])] if cells else []
+                  cell=cells[0], values={"count": len(cells)})] if cells else []
 
 
 def stops_called(stops: Sequence[Entry]) -> dict[str, list[str]]:
@@ -242,9 +242,10 @@ def _preference_doubts(unknown: Sequence[tuple[str, str]], without_price: Sequen
         doubts.append(Doubt("PREFERENCE_UNKNOWN", f"{len(unknown)} vehicles or drivers that rows "
                             f"prefer or price are none of the fleet's, such as {text!r} ({cell}): "
                             "nothing is made of that. List them on a sheet of vehicles.",
-                            cell=cell))
+                            cell=cell, values={"count": len(unknown), "name": text}))
     if without_price:
         doubts.append(Doubt("PREFERENCE_ASSUMED", f"{len(without_price)} customers prefer a "
                             f"vehicle and don't say how much, such as {without_price[0]}: any "
-                            f"other is taken to cost {assumed:g} more.", cell=without_price[0]))
+                            f"other is taken to cost {assumed:g} more.", cell=without_price[0],
+                            values={"count": len(without_price), "amount": assumed}))
     return doubts

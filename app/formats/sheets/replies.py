@@ -42,7 +42,8 @@ def reply_of(work: Import, file: SheetFile, settings: ImportSettings) -> ImportR
         day=style.day.isoformat() if style.day else None,
         doubts=[_doubt_reply(doubt) for doubt in work.doubts],
         questions=[QuestionReply.of(asked) for asked in work.asking.asked],
-        errors=[SheetErrorReply(code=error.code, message=error.message, cell=error.cell)
+        errors=[SheetErrorReply(code=error.code, message=error.message, cell=error.cell,
+                                values=dict(error.values))
                 for error in work.errors[:MOST_LISTED]],
         num_errors=len(work.errors),
         looked_up=work.looked_up,
@@ -103,7 +104,8 @@ def _example(table: Table, row: int, raw: Raw, column: Column,
 
 
 def _doubt_reply(doubt: Doubt) -> DoubtReply:
-    return DoubtReply(code=doubt.code, message=doubt.message, column=doubt.column, cell=doubt.cell)
+    return DoubtReply(code=doubt.code, message=doubt.message, column=doubt.column, cell=doubt.cell,
+                      values=dict(doubt.values))
 
 
 def _mapping(work: Import, file: SheetFile, settings: ImportSettings) -> Mapping:

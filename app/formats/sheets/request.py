@@ -64,7 +64,8 @@ def request_of(work: Import, depots: Sequence[Row], ground: TableGeography,
         in_km = any(column.meaning == "x" and column.unit == "km" for column in columns)
         unit = {"planar_unit": 1000} if in_km else {}
         doubts.append(Doubt("PLANE", "x and y are taken for places on a plane, in "
-                            f"{'kilometres' if in_km else 'metres'}."))
+                            f"{'kilometres' if in_km else 'metres'}.",
+                            values={"case": "km" if in_km else "m"}))
     system = "geographic" if ground.is_geographic else "planar"
     currency = {"currency": settings.currency} if settings.currency else {}
     request: Data = {"coordinate_system": system, **unit, **currency, **_loads(columns),
@@ -149,7 +150,8 @@ def _depots(stops: Sequence[Entry], rows: Sequence[Row], ground: TableGeography,
         return ([{"id": "depot" if single else f"depot-{number}", "location": list(pair)}
                  for number, (_, pair) in enumerate(known, 1)],
                 [Doubt("DEPOT_IN_FILE", f"{names} {'is' if single else 'are'} taken for the depot"
-                       f"{'' if single else 's'}, not for customers.")])
+                       f"{'' if single else 's'}, not for customers.",
+                       values={"count": len(known), "cells": names})])
     places = [pair for _, pair in placed(stops)]
     if stops and not places:
         raise Incomplete("DEPOT", "No depot is stated, and no customer's place is known: state "
@@ -159,7 +161,8 @@ def _depots(stops: Sequence[Entry], rows: Sequence[Row], ground: TableGeography,
     shown = ", ".join(f"{number:.10g}"
                       for number in (middle[::-1] if ground.is_geographic else middle))
     return [{"id": "depot", "location": middle}], [Doubt(
-        "DEPOT_ASSUMED", f"No depot is stated: the middle of the customers is taken, {shown}.")]
+        "DEPOT_ASSUMED", f"No depot is stated: the middle of the customers is taken, {shown}.",
+        values={"place": shown})]
 
 
 _SIZE = re.compile(r"(\d{1,2}) ?([a-z]*)")
@@ -179,7 +182,8 @@ def with_crews(served: Iterable[Entry], vans: Sequence[Van]) -> list[Doubt]:
     if not asked:
         return []
     return [Doubt("CREWS", f"Who asks for {', '.join(list(asked)[:10])} is served by vehicles "
-                  "with that crew, or more of it.", cell=next(iter(asked.values())))]
+                  "with that crew, or more of it.", cell=next(iter(asked.values())),
+                  values={"names": list(asked)[:10]})]
 
 
 def _having(crew: str, crews: Mapping[str, str]) -> list[str]:

@@ -7,7 +7,9 @@ from functools import lru_cache
 from math import isclose
 from typing import Any
 
-from app.formats.sheets.cells import CellError, MisreadError, Raw, cell_name, letters
+from app.formats.sheets.cells import (
+    CellError, MisreadError, Raw, Values, cell_name, letters, shown,
+)
 from app.formats.sheets.clocks import Style
 from app.formats.sheets.columns import Column
 from app.formats.sheets.headings import simple
@@ -42,9 +44,10 @@ class Row:
         return next((self.cells[meaning] for meaning in meanings if meaning in self.cells),
                     self.first or cell_name(self.number, 0))
 
-    def refuse(self, code: str, message: str, *meanings: str) -> None:
+    def refuse(self, code: str, message: str, *meanings: str,
+               values: Values | None = None) -> None:
         """Note an error at a cell. In place."""
-        self.errors.append(CellError(code, message, self.cell(*meanings)))
+        self.errors.append(CellError(code, message, self.cell(*meanings), values or {}))
 
     @property
     def is_depot(self) -> bool:
@@ -86,7 +89,8 @@ def _read_column(table: Table, column: Column, style: Style, rows: Sequence[Row]
                 else f"{letter}{row.number + 1}")
         value, wrong = reading(type(raw).__name__, raw)
         if wrong:
-            row.errors.append(CellError("MISREAD", wrong, name))
+            row.errors.append(CellError("MISREAD", wrong, name, {
+                "case": meaning.kind, "value": shown(raw)[:40], "meaning": column.meaning}))
         if meaning.repeats:
             row.values.setdefault(column.meaning, []).append(value)
         elif value is not None:

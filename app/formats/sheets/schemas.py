@@ -107,6 +107,12 @@ class _Reply(BaseModel):
     model_config = ConfigDict(extra="forbid")
 
 
+ToldValues = Annotated[dict[str, str | int | float | list[str]], Field(
+    description="What the message is made of, by name, for whoever tells it in other words: "
+    "`count` rows, cells or stops; `name` or `names`, `value` as the cell has it, `meaning`, "
+    "`unit`, `address`, `place`, `amount`; `case` where one code says several things.")]
+
+
 class DoubtReply(_Reply):
     """Something that was guessed or assumed."""
 
@@ -114,6 +120,7 @@ class DoubtReply(_Reply):
     message: str = Field(description="What was taken for what.")
     column: str | None = Field(None, description="Letters of the column, if it is about one.")
     cell: str | None = Field(None, description="Name of the cell, such as `C17`, if about one.")
+    values: ToldValues = {}
 
 
 class SheetErrorReply(_Reply):
@@ -122,6 +129,7 @@ class SheetErrorReply(_Reply):
     code: str = Field(description="Stable name of the kind of error.")
     message: str = Field(description="What is wrong and how to mend it.")
     cell: str | None = Field(None, description="Name of the cell, such as `C17`.")
+    values: ToldValues = {}
 
 
 class ExampleReply(_Reply):

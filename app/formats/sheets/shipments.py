@@ -51,19 +51,21 @@ def _wrong(ends: Sequence[Sequence[Entry]]) -> CellError | None:
             return CellError(
                 "SHIPMENT_ROWS", f"The shipment {_name(row)} has {places} places of {row.side}, "
                 f"and {most} {'is' if most == 1 else 'are'} possible: make several shipments.",
-                row.cell("shipment", "order"))
+                row.cell("shipment", "order"), {"case": "places", "name": _name(row)})
     lacking = [found for found in _by_place(ends[0]) if not any(_amounts(found))]
     if lacking and len(_by_place(ends[0])) > 1:
         row = lacking[0][0].rows[0]
         return CellError("SHIPMENT_AMOUNTS", f"What is picked up there of {_name(row)} isn't "
                          "stated: state the amount of each pickup.",
-                         row.cell("demand", "pickup", "shipment", "order"))
+                         row.cell("demand", "pickup", "shipment", "order"),
+                         {"case": "lacks", "name": _name(row)})
     amounts = [_amounts(end) for end in ends]
     if all(map(any, amounts)) and amounts[0] != amounts[1]:
         row = ends[1][0].rows[0]
         return CellError(
             "SHIPMENT_AMOUNTS", f"Another amount is picked up than is delivered of {_name(row)}: "
-            "state the same, or one.", row.cell("demand", "pickup", "shipment", "order"))
+            "state the same, or one.", row.cell("demand", "pickup", "shipment", "order"),
+            {"name": _name(row)})
     return None
 
 

@@ -31,11 +31,13 @@ def style_of(table: Table, file: SheetFile,
             name = cell_name(row, column)
             doubts.append(Doubt("DECIMALS_GUESSED", f"{name} ({raw}) may have decimals or "
                                 f"thousands: a {'comma' if comma else 'point'} is taken to stand "
-                                "before decimals.", cell=name))
+                                "before decimals.", cell=name, values={
+                                    "case": "comma" if comma else "point", "value": str(raw)}))
     if zone := next((place for place in cells if states_zone(place[2])), None):
         name = cell_name(zone[0], zone[1])
         doubts.append(Doubt("ZONE_NOT_READ", f"Times such as {name} ({zone[2]}) are read as they "
-                            "are written: their time zone is not looked at.", cell=name))
+                            "are written: their time zone is not looked at.", cell=name,
+                            values={"value": zone[2]}))
     day_first, doubt = _day_first(cells, mapping.day_first)
     try:
         day = day_of(settings)
@@ -59,11 +61,13 @@ def _day_first(cells: Sequence[tuple[int, int, str]],
     _, raw, name = dates[0]
     return not american, Doubt(
         "DATES_GUESSED", f"{name} ({raw}) may begin with the day or the month: the "
-        f"{'month' if american else 'day'} is taken to come first.", cell=name)
+        f"{'month' if american else 'day'} is taken to come first.", cell=name,
+        values={"case": "month" if american else "day", "value": str(raw)})
 
 
 def encoding_doubt(file: SheetFile, table: Table) -> Doubt:
     cells = [*table.headings, *(raw for row in table.rows for raw in table.sheet.rows[row])]
     strange = next((raw for raw in cells if isinstance(raw, str) and not raw.isascii()), "")
     return Doubt("ENCODING_GUESSED", f"The file doesn't say its encoding: {file.encoding} is "
-                 f"taken. Check that {strange[:60]!r} is spelt right.")
+                 f"taken. Check that {strange[:60]!r} is spelt right.",
+                 values={"encoding": file.encoding or "", "example": strange[:60]})

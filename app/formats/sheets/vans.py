@@ -5,7 +5,7 @@ from dataclasses import dataclass, field
 from itertools import zip_longest
 from typing import Any
 
-from app.formats.sheets.cells import Doubt, MisreadError, Raw, letters
+from app.formats.sheets.cells import Doubt, MisreadError, Raw, letters, shown
 from app.formats.sheets.clocks import Style
 from app.formats.sheets.headings import simple, unit_named, without_unit
 from app.formats.sheets.layout import SEARCHED_ROWS, Table, table_of
@@ -94,10 +94,12 @@ def vans_of(sheet: Sheet, style: Style) -> tuple[list[Van], list[Doubt]]:
     unused = [heading or letters(column) for column, heading in enumerate(table.headings)
               if column not in meant and table.column(column)]
     doubts = [Doubt("FLEET_IN_FILE", f"The sheet {sheet.name} is read as the vehicles: "
-                    f"{len(vans)} rows.")]
+                    f"{len(vans)} rows.",
+                    values={"sheet": sheet.name, "count": len(vans)})]
     if unused:
         doubts.append(Doubt("FLEET_UNUSED", f"Of the sheet {sheet.name} nothing is made of "
-                            f"{', '.join(unused[:10])}."))
+                            f"{', '.join(unused[:10])}.",
+                            values={"sheet": sheet.name, "names": unused[:10]}))
     return vans, doubts
 
 
@@ -222,7 +224,9 @@ def _value(table: Table, row: int, column: int, kind: Kind, unit: str | None,
     try:
         return read(table.cell(row, column), kind, unit, style)
     except MisreadError as error:
-        raise MisreadError(f"{table.sheet.name}!{table.name(row, column)}: {error}") from error
+        cell = f"{table.sheet.name}!{table.name(row, column)}"
+        value = shown(table.cell(row, column))[:40]
+        raise MisreadError(f"{cell}: {error}", cell, value) from error
 
 
 def _unit_of(heading: str, raw: Raw) -> str | None:

@@ -46,12 +46,13 @@ def of_weekday(table: Table, style: Style, asking: Questionnaire) -> OfDay:
         cell = table.name(table.header_rows[-1], min(columns))
         return OfDay(table, stated, [], [CellError(
             "SEVERAL_DAYS", f"There are {len(columns)} days of the week: state the one that is "
-            "planned.", cell)])
+            "planned.", cell, {"count": len(columns)})])
     rows = tuple(row for row in table.rows
                  if simple(shown(table.cell(row, chosen))) not in NOTHING)
     left_out = len(table.rows) - len(rows)
     doubts = [Doubt("OTHER_DAYS", f"{left_out} rows have nothing under {table.headings[chosen]}, "
-                    "and are left out.", letters(chosen))] if left_out else []
+                    "and are left out.", letters(chosen),
+                    values={"count": left_out})] if left_out else []
     return OfDay(replace(table, rows=rows), stated, doubts, [])
 
 

@@ -12,6 +12,7 @@
  * Anrede: „Sie“, meist vermieden; Schaltflächen im Infinitiv („Datei öffnen“).
  */
 
+import granted from './granted/de.js';
 import reason from './reasons/de.js';
 
 export default {
@@ -2014,7 +2015,7 @@ export default {
     day: 'Tag',
     compare: 'Vergleich',
     drivers: 'Fahrer',
-    export: 'Mitnehmen',
+    export: 'Export',
     settings: 'Optionen',
   },
   tab: {
@@ -2027,7 +2028,7 @@ export default {
     changes: 'Was wäre wenn',
     replan: 'Umplanen',
     scenarios: 'Szenarien',
-    export: 'Mitnehmen',
+    export: 'Export',
     drivers: 'Fahrer',
   },
   keys: {
@@ -2394,6 +2395,7 @@ export default {
     failures_other: '{{count}} gescheitert',
     over: 'der Tag ist vorbei',
   },
+  granted,
   reason,
   sheet: {
     phone: 'Dieser Tag auf dem Telefon',
@@ -2570,6 +2572,7 @@ export default {
     none:
       'Das Problem hat Matrizen und keine Orte, also gibt es keine Karte; Zeitachse ' +
       'und Tabellen zeigen den Plan.',
+    empty: 'Noch ist hier nichts: Tabelle hierher ziehen, Datei öffnen oder Kunden zeichnen.',
     dragPlace: 'Dorthin ziehen, wo {{id}} ist',
     dragStop: '{{id}} auf einen anderen Weg ziehen',
   },

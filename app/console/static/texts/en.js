@@ -1,5 +1,6 @@
 /** The console's texts in English, by view. A text in several numbers ends in `_one`, `_other`. */
 
+import granted from './granted/en.js';
 import reason from './reasons/en.js';
 
 export default {
@@ -2339,6 +2340,7 @@ export default {
     failures_other: '{{count}} failures',
     over: 'the day is over',
   },
+  granted,
   reason,
   sheet: {
     phone: 'This day on a phone',
@@ -2512,6 +2514,7 @@ export default {
     none:
       'The problem has matrices and no locations, so there is no map; the timeline and ' +
       'the tables show the plan.',
+    empty: 'Nothing here yet: drop a spreadsheet, open a file, or draw customers.',
     dragPlace: 'Drag to where {{id}} is',
     dragStop: 'Drag {{id}} onto another way',
   },

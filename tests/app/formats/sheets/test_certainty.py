@@ -136,3 +136,9 @@ def test_dates_without_a_year_are_of_the_year_of_the_day_that_is_planned() -> No
     assert reply.request is not None
     assert [customer["id"] for customer in reply.request["customers"]] == ["A"]
     assert certainty(import_file(content, ImportSettings()), "Datum") == ("ignored", "open")
+
+
+def test_a_vehicle_by_its_heading_is_a_begin_where_its_cells_are_times() -> None:
+    reply = read("Naam;Lat;Lon;Van;Tot", "A;52,1;4,5;23-11-2026 10:00;23-11-2026 11:30",
+                 "B;52,2;4,6;23-11-2026 09:00;23-11-2026 12:00")
+    assert certainty(reply, "Van") == ("earliest", "sure")

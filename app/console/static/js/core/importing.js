@@ -1,6 +1,6 @@
 /** What the console knows of imports: corrections, what is stated beside, earlier mappings. */
 
-import { t } from '../texts.js';
+import { language, t } from '../texts.js';
 import { clock, number, parseHours, parseNumber } from './format.js';
 import { soughtIn } from './places.js';
 
@@ -15,8 +15,7 @@ export const FIELDS = [
   { name: 'depot', example: '48.137, 11.575', read: text },
   { name: 'vehicles', example: '3', read: whole },
   { name: 'capacity', example: '800', read: numbers },
-  { name: 'shift', example: '8:00-17:00', read: text },
-];
+  { name: 'shift', example: '8:00-17:00', read: text }];
 
 /** The others. */
 export const MORE_FIELDS = [
@@ -27,8 +26,7 @@ export const MORE_FIELDS = [
   { name: 'speed_kmh', example: '40', read: parseNumber },
   { name: 'service_minutes', example: '5', read: parseNumber },
   { name: 'drones', example: '1', read: whole },
-  { name: 'drone_capacity', example: '5', read: numbers },
-];
+  { name: 'drone_capacity', example: '5', read: numbers }];
 
 /** Return a text, or what stands in its place where the language has none by its key. */
 export function knownOr(text, fallback) {
@@ -41,6 +39,17 @@ export function meaningText(meaning, title) {
   const [, side, rest] = /^(pickup|alternative)_(\w+)$/.exec(meaning) ?? [];
   if (own || !side) return own ?? title;
   return `${t(`import.side.${side}`)}: ${t(`import.meaning.${rest}`)}`;
+}
+
+/** Return a doubt or an error of an import in words, by its code and values. */
+export function grantedInWords({ code, message, values, cell, column }) {
+  const { case: context, names = [], meaning, amount, currency } = values;
+  return t(`granted.${code}`, {
+    ...values, cell, column, context, defaultValue: message,
+    names: names.join(', '),
+    meaning: meaning && meaningText(meaning, meaning),
+    amount: amount && `${number(amount)} ${currency ?? ''}`.trim(),
+  });
 }
 
 /** Return a window of the request in words; its times may be counted or written. */
@@ -63,7 +72,13 @@ export function madeOf(meaning, { raw, read }) {
   const bound = { earliest: 'since', latest: 'until' }[own];
   const said = bound ? t(`import.${bound}`, { time: read }) : read;
   const made = side ? `${t(`import.side.${side}`)}: ${said}` : said;
-  return meaning === 'ignored' || made === raw ? '' : made;
+  return meaning === 'ignored' || made === raw ? '' : withDecimals(made);
+}
+
+/** Return what was read, its one number with the decimals of the language. */
+function withDecimals(made) {
+  const sign = (0.5).toLocaleString(language()).charAt(1);
+  return made.replace(/^([^\d.,]*\d+)\.(\d+[^\d.,]*)$/, `$1${sign}$2`);
 }
 
 function text(value) {
@@ -173,8 +188,7 @@ export function withColumn(mapping, { heading, column }, change, questions = [])
 
 function otherColumns({ columns = [] }, { heading, column }) {
   return columns.filter(
-    (entry) => entry.heading !== heading || (entry.column ?? column) !== column,
-  );
+    (entry) => entry.heading !== heading || (entry.column ?? column) !== column);
 }
 
 function without(answers, ids) {
@@ -205,9 +219,7 @@ export function byAddress(places) {
   return new Map(
     Object.entries(places).map(([address, location]) => [
       address,
-      { places: [{ location, quality: 'house' }], doubt: null },
-    ]),
-  );
+      { places: [{ location, quality: 'house' }], doubt: null }]));
 }
 
 /** Return a request without whoever's addresses have no place, and without such other places. */
@@ -216,12 +228,10 @@ export function withoutUnplaced(request) {
   const customers = request.customers.filter(isPlaced).map((customer) =>
     customer.alternatives
       ? { ...customer, alternatives: customer.alternatives.filter(isPlaced) }
-      : customer,
-  );
+      : customer);
   if (!request.shipments) return { ...request, customers };
   const shipments = request.shipments.filter(
-    ({ pickup, pickups, delivery }) => [...(pickups ?? [pickup]), delivery].every(isPlaced),
-  );
+    ({ pickup, pickups, delivery }) => [...(pickups ?? [pickup]), delivery].every(isPlaced));
   return { ...request, customers, shipments };
 }
 

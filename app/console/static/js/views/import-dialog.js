@@ -1,7 +1,6 @@
 /** What a sheet is taken for, cell by cell, before it is planned; each guess can be corrected. */
 
-import { grantedInWords } from '../core/granted.js';
-import { corrected, readFields, unplacedIn } from '../core/importing.js';
+import { corrected, grantedInWords, readFields, unplacedIn } from '../core/importing.js';
 import { change, leaveImport, useImport } from '../importing.js';
 import { html } from '../libraries.js';
 import { useStore } from '../store.js';
@@ -74,8 +73,7 @@ function Errors({ importing: { reply, choices } }) {
       ${' '}${t('import.mend')}</p>
     <ul>${reply.errors.slice(0, MOST_LISTED).map(
       (error, position) => html`<li key=${position}>
-        ${error.cell && html`<strong>${error.cell}</strong>: `}${
-          grantedInWords({ ...error, cell: '' })}</li>`,
+        ${error.cell && html`<strong>${error.cell}</strong>: `}${grantedInWords(error)}</li>`,
     )}
     ${more > 0 && html`<li>${t('app.more', { count: more })}</li>`}
     </ul></div>
@@ -91,6 +89,12 @@ function Errors({ importing: { reply, choices } }) {
 function Doubts({ reply: { doubts } }) {
   if (!doubts.length) return null;
   return html`<details open><summary>${t('import.granted', { count: doubts.length })}</summary>
-    <ul>${doubts.map((doubt) => html`<li key=${doubt.message}>${
-      grantedInWords(doubt)}</li>`)}</ul></details>`;
+    <ul>${doubts.map((doubt) => html`<li key=${doubt.message}><${Doubt} doubt=${doubt} /></li>`)}
+    </ul></details>`;
+}
+
+function Doubt({ doubt }) {
+  const text = grantedInWords(doubt);
+  const { cell } = doubt;
+  return html`${cell && !text.includes(cell) && html`<strong>${cell}</strong>: `}${text}`;
 }

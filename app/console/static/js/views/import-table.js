@@ -1,6 +1,6 @@
 /** The first rows of a file as they are: what each column is read as, and made of each cell. */
 
-import { isMarked, knownOr, madeOf, meaningText } from '../core/importing.js';
+import { grantedInWords, isMarked, knownOr, madeOf, meaningText } from '../core/importing.js';
 import { changeColumn } from '../importing.js';
 import { html, useState } from '../libraries.js';
 import { t } from '../texts.js';
@@ -48,8 +48,8 @@ function Heading({ column, meanings }) {
         ${t('import.right')}</button>`}</th>`;
 }
 
-function doubtText({ code, message }) {
-  return knownOr(t(`import.doubt.${code}`), message);
+function doubtText(doubt) {
+  return knownOr(t(`import.doubt.${doubt.code}`), grantedInWords(doubt));
 }
 
 function MeaningOf({ column, name, meanings }) {
