@@ -24,7 +24,7 @@ def test_a_day_is_planned_by_its_clock(page: Page) -> None:
     planned(page, "2 of 2 served")
     expect(page.locator("#total-cost")).to_contain_text("EUR")
     row = page.locator("tr", has=page.get_by_role("button", name="Bakery", exact=True)).first
-    expect(row).to_contain_text("7:30 to 9:00")
+    expect(row).to_contain_text("7:30\N{EN DASH}9:00")
     expect(row).to_contain_text("40\N{NO-BREAK SPACE}kg")
     assert state(page, "state.request.customers.0.time_window.earliest") == 6.5 * 3600
     assert problem_saved(page) == stated

@@ -113,11 +113,11 @@ def test_flights_are_drawn_as_they_are_measured(console: Page) -> None:
     drawn, measured = console.evaluate("""async () => {
       const load = (path) => loaded(`${path}.js`);
       const [{ store }, { indexOf, shownPlan }] = await Promise.all(['store', 'actions'].map(load));
-      const [{ flownLines }, { lengthOf }] = await Promise.all(
+      const [{ flownLegs }, { lengthOf }] = await Promise.all(
         ['core/flights', 'core/geometry'].map(load));
       const index = indexOf(shownPlan(store.get()));
       const [sortie] = index.vehicles[0].trips[0].sorties;
-      const legs = flownLines(index.request)(sortie);
+      const legs = flownLegs(sortie);
       return [legs.reduce((sum, leg) => sum + lengthOf(leg), 0) * 1000, sortie.reply.distance];
     }""")
     assert abs(drawn - measured) < 1

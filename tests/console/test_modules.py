@@ -34,7 +34,7 @@ def test_module_is_short(path: Path) -> None:
 
 def test_every_library_has_its_licence() -> None:
     folders = [path for path in (STATIC / "vendor").iterdir() if path.is_dir()]
-    assert len(folders) == 8
+    assert len(folders) == 10
     assert [path.name for path in folders if not list(path.glob("LICENSE*"))] == []
 
 

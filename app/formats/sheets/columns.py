@@ -270,7 +270,7 @@ def _unit_doubts(column: Column, guess: UnitGuess) -> tuple[Doubt, ...]:
     if guess.doubt is None:
         return ()
     return (Doubt("UNIT_GUESSED", f"Column {column.name} is read in {guess.unit}: {guess.doubt}.",
-                  letters(column.index), values={"unit": guess.unit}),)
+                  letters(column.index), values={"unit": guess.unit or ""}),)
 
 
 def _fit(cells: Sequence[Raw], column: Column, style: Style) -> float:

@@ -1,82 +1,19 @@
 import assert from 'node:assert/strict';
 import test from 'node:test';
-import { Airspace } from '../../../app/console/static/js/core/detour.js';
 import {
   distanceToLine,
-  lengthOf,
+  isInside,
   nearestLine,
   planeOf,
   pointAlong,
 } from '../../../app/console/static/js/core/geometry.js';
 
-const SQUARE = [
-  [10, -10],
-  [30, -10],
-  [30, 10],
-  [10, 10],
-];
-const calm = (rings) => new Airspace(rings, { speed_kmh: 0 }, 60);
-
-test('a clear flight is straight', () => {
-  assert.deepEqual(calm([SQUARE]).flight([0, 20], [40, 20]), [
-    [0, 20],
-    [40, 20],
-  ]);
-});
-
-test('a flight along an edge touches and does not cut', () => {
-  assert.deepEqual(calm([SQUARE]).flight([0, 10], [40, 10]), [
-    [0, 10],
-    [40, 10],
-  ]);
-  assert.deepEqual(calm([SQUARE]).flight([10, -10], [30, -10]), [
-    [10, -10],
-    [30, -10],
-  ]);
-});
-
-test('a flight that an area blocks bends at its corners, by the shortest way', () => {
-  const flown = calm([SQUARE]).flight([0, 1], [40, 1]);
-  assert.deepEqual(flown, [
-    [0, 1],
-    [10, 10],
-    [30, 10],
-    [40, 1],
-  ]);
-  assert.ok(Math.abs(lengthOf(flown) - (20 + 2 * Math.hypot(10, 9))) < 1e-9);
-});
-
-test('a diagonal through opposite corners is blocked', () => {
-  assert.ok(calm([SQUARE]).blocks([0, -20], [40, 20]));
-});
-
-test('in wind the quicker way around is flown, though it may be the longer', () => {
-  const long = [
-    [10, -10],
-    [30, -10],
-    [30, 9],
-    [10, 9],
-  ];
-  const ways = [9, -10].map((y) => [
-    [0, 0],
-    [10, y],
-    [30, y],
-    [40, -20],
-  ]);
-  for (const direction of [0, 45, 90, 135, 180, 225, 270, 315]) {
-    const airspace = new Airspace([long], { speed_kmh: 40, direction_deg: direction }, 60);
-    const timeOf = (way) =>
-      way.slice(1).reduce((sum, point, at) => sum + airspace.duration(way[at], point), 0);
-    const flown = timeOf(airspace.flight([0, 0], [40, -20]));
-    assert.ok(flown <= Math.min(...ways.map(timeOf)) + 1e-9);
+test('inside of a ring is what its corners go around, closed or not', () => {
+  const bay = [[0, 0], [8, 0], [8, 8], [4, 2], [0, 8]];
+  for (const ring of [bay, [...bay, bay[0]]]) {
+    const inside = [[4, 1], [1, 6], [4, 6], [9, 1], [-1, 1]].map((point) => isInside(ring, point));
+    assert.deepEqual(inside, [true, true, false, false, false]);
   }
-});
-
-test('too strong a wind is no flight, and a tail wind is faster', () => {
-  const windy = new Airspace([], { speed_kmh: 30, direction_deg: 270 }, 60);
-  assert.ok(windy.duration([0, 0], [100, 0]) < windy.duration([100, 0], [0, 0]));
-  const stormy = new Airspace([], { speed_kmh: 80, direction_deg: 270 }, 60);
-  assert.equal(stormy.duration([100, 0], [0, 0]), Infinity);
 });
 
 test('a point along a line is found by its share of the way', () => {

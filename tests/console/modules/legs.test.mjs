@@ -22,12 +22,12 @@ test('estimated legs are counted', () => {
   const [line] = legsInWords([
     { ...LEG, by: 'roads', engine: 'osrm', estimated: 12, detour: 1.3, note: 'So it is.' },
   ]);
-  assert.equal(line, 'truck: by roads (osrm), 12 legs estimated (detour 1.3). So it is.');
+  assert.equal(line, 'truck: by roads (osrm), 12 legs estimated (detour 1.3).');
 });
 
-test('as the crow flies says why', () => {
+test('as the crow flies is told in the words of the page', () => {
   const legs = [{ ...LEG, by: 'great_circle', note: 'No roads.' }];
-  assert.deepEqual(legsInWords(legs), ['truck: as the crow flies. No roads.']);
+  assert.deepEqual(legsInWords(legs), ['truck: as the crow flies.']);
 });
 
 test('plans of former versions tell nothing', () => {

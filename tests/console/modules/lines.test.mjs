@@ -2,7 +2,7 @@ import assert from 'node:assert/strict';
 import test from 'node:test';
 import { describe } from '../../../app/console/static/js/core/describe.js';
 import { geoJson, gpx } from '../../../app/console/static/js/core/exports.js';
-import { flownLines } from '../../../app/console/static/js/core/flights.js';
+import { flownLegs } from '../../../app/console/static/js/core/flights.js';
 import { contains, indexPlan } from '../../../app/console/static/js/core/plan.js';
 import { playback } from '../../../app/console/static/js/core/playback.js';
 import { decodeLine } from '../../../app/console/static/js/core/polyline.js';
@@ -71,7 +71,7 @@ test('legs and flights take the lines of the reply', () => {
     [1, 0],
     [1, 1],
   ]);
-  const [there, back] = flownLines(REQUEST)(trip.sorties[0]);
+  const [there, back] = flownLegs(trip.sorties[0]);
   assert.deepEqual(there, [
     [0, 0],
     [0, 1],
@@ -91,7 +91,7 @@ test('a line that leads elsewhere is not taken', () => {
 
 test('files hold flights as they are flown, not as the map draws them', () => {
   const lineOf = (index) =>
-    geoJson(index, flownLines(REQUEST)).features.find(
+    geoJson(index).features.find(
       ({ properties: { kind } }) => kind === 'flight',
     ).geometry.coordinates;
   assert.deepEqual(lineOf(straight), [
@@ -108,14 +108,14 @@ test('files hold flights as they are flown, not as the map draws them', () => {
 });
 
 test('files hold the roads of trips', () => {
-  const file = gpx(bent.vehicles[0], flownLines(REQUEST));
+  const file = gpx(bent.vehicles[0]);
   assert.equal(file.split('<trk>').length, 3);
   assert.ok(file.includes('<name>van-1, trip 1, road</name>'));
-  assert.equal(gpx(straight.vehicles[0], flownLines(REQUEST)).split('<trk>').length, 2);
+  assert.equal(gpx(straight.vehicles[0]).split('<trk>').length, 2);
 });
 
 test('trucks drive along their roads', () => {
-  const at = playback(bent, flownLines(REQUEST));
+  const at = playback(bent);
   assert.deepEqual(at(10).trucks[0].location, [1, 0]);
 });
 

@@ -1,6 +1,5 @@
 import assert from 'node:assert/strict';
 import test from 'node:test';
-import { bestAssignment } from '../../../app/console/static/js/core/assignment.js';
 import {
   movedCustomers, planDifference, renamedTours,
 } from '../../../app/console/static/js/core/differences.js';
@@ -56,35 +55,6 @@ const pairsOf = (former, entry) =>
   Object.fromEntries(matchVehicles(former, entry).map(({ before, now }) => [now, before]));
 const tours = ({ plan }) => Object.fromEntries(plan.routes.map(({ vehicle, trips }) => [
   vehicle, trips[0].stops.map(({ id }) => id).join('')]));
-
-/** Return the greatest sum of pairs, by trying all. */
-function greatest(worth, row = 0, used = new Set()) {
-  if (row === worth.length) return 0;
-  const sums = worth[row].map((value, column) =>
-    used.has(column) ? -Infinity : value + greatest(worth, row + 1, new Set([...used, column])));
-  const spare = worth.length > worth[0].length ? greatest(worth, row + 1, used) : -Infinity;
-  return Math.max(spare, ...sums);
-}
-
-test('pairs are worth the most that any are', () => {
-  let seed = 7;
-  const random = () => {
-    seed = (seed * 48271) % 2147483647;
-    return seed % 10;
-  };
-  for (const [rows, columns] of [[1, 1], [3, 3], [4, 6], [6, 4], [5, 5], [2, 7]]) {
-    for (let round = 0; round < 20; round += 1) {
-      const worth = Array.from({ length: rows }, () => Array.from({ length: columns }, random));
-      const found = bestAssignment(worth);
-      const paired = found.filter((column) => column >= 0);
-      assert.equal(new Set(paired).size, Math.min(rows, columns));
-      const sum = found.reduce((total, column, row) => total + (worth[row][column] ?? 0), 0);
-      assert.equal(sum, greatest(worth));
-    }
-  }
-  assert.deepEqual(bestAssignment([]), []);
-  assert.deepEqual(bestAssignment([[], []]), [-1, -1]);
-});
 
 test('tours under other names are the same tours, also with a vehicle fewer', () => {
   const former = entryOf({ van: 3 }, { 'van-1': 'AB', 'van-2': 'CDE', 'van-3': 'FG' });

@@ -6,11 +6,9 @@ import {
   requestDifferences,
 } from '../../../app/console/static/js/core/differences.js';
 import { geoJson, gpx, stopsCsv } from '../../../app/console/static/js/core/exports.js';
-import { flownLines } from '../../../app/console/static/js/core/flights.js';
 import { contains, indexPlan, keysWithin, spanOf } from '../../../app/console/static/js/core/plan.js';
 import { playback } from '../../../app/console/static/js/core/playback.js';
 import { ACTIVITIES, closedOf, rowWindows, timelineRows } from '../../../app/console/static/js/core/timeline.js';
-import { eventReader } from '../../../app/console/static/js/core/sse.js';
 
 const REQUEST = {
   depots: [{ id: 'hub', location: [0, 0] }],
@@ -129,7 +127,7 @@ test('a truck and its drone have a row each, waiting and service as bars', () =>
 });
 
 test('trucks drive and drones fly along with the clock', () => {
-  const places = playback(index, flownLines(REQUEST));
+  const places = playback(index);
   assert.deepEqual(places(10).trucks[0].location, [5, 0]);
   assert.equal(places(10).drones.length, 0);
   assert.equal(places(50).drones[0].doing, 'flies');
@@ -145,7 +143,7 @@ test('stops become CSV that no sheet takes for a formula', () => {
 });
 
 test('GeoJSON has places, trips and flights, and tells a plane as such', () => {
-  const { features, coordinate_system: system } = geoJson(index, flownLines(REQUEST));
+  const { features, coordinate_system: system } = geoJson(index);
   assert.deepEqual(
     features.map(({ properties: { kind } }) => kind),
     ['depot', 'customer', 'customer', 'customer', 'trip', 'flight'],
@@ -162,13 +160,13 @@ test('files say what drivers are to know', () => {
   assert.ok(lines[0].endsWith(',load,address,info_kind,notes'));
   assert.ok(lines[2].endsWith(",Mozartstr. 17,'=ramp,5 < 6"));
   assert.ok(lines[3].endsWith(',,,'));
-  assert.deepEqual(geoJson(told, flownLines(request)).features[1].properties.info, info);
-  assert.ok(gpx(told.vehicles[0], flownLines(request)).includes('notes: 5 &lt; 6</desc>'));
+  assert.deepEqual(geoJson(told).features[1].properties.info, info);
+  assert.ok(gpx(told.vehicles[0]).includes('notes: 5 &lt; 6</desc>'));
 });
 
 test('GPX and SVG write names so that they stay names', () => {
   const vehicle = { ...index.vehicles[0], name: 'a<b&"c"' };
-  assert.ok(gpx(vehicle, flownLines(REQUEST)).includes('a&lt;b&amp;&quot;c&quot;, trip 1'));
+  assert.ok(gpx(vehicle).includes('a&lt;b&amp;&quot;c&quot;, trip 1'));
 });
 
 test('differences name what changed and who is served by another', () => {
@@ -190,20 +188,6 @@ test('differences name what changed and who is served by another', () => {
   ]);
 });
 
-test('events are read however the stream is cut', () => {
-  const text =
-    'id: 1\r\nevent: progress\r\ndata: {"cost": 2}\r\n\r\n: still here\r\n\r\nevent: end\ndata: a\ndata: b\n\n';
-  for (const size of [1, 2, 7, 1000]) {
-    const seen = [];
-    const read = eventReader((event) => seen.push(event));
-    for (let at = 0; at < text.length; at += size) read(text.slice(at, at + size));
-    assert.deepEqual(seen, [
-      { event: 'progress', id: '1', data: '{"cost": 2}' },
-      { event: 'end', id: null, data: 'a\nb' },
-    ]);
-  }
-});
-
 test('an open route begins at its place and is drawn to its last stop', () => {
   const request = {
     ...REQUEST,
@@ -212,7 +196,7 @@ test('an open route begins at its place and is drawn to its last stop', () => {
   const trip = { ...PLAN.routes[0].trips[0], sorties: [] };
   trip.stops = [{ ...trip.stops[0], kind: 'start', id: 'van' }, trip.stops[1]];
   const plan = { ...PLAN, routes: [{ ...PLAN.routes[0], trips: [trip] }] };
-  const { features } = geoJson(indexPlan(request, plan), flownLines(request));
+  const { features } = geoJson(indexPlan(request, plan));
   const of = (kind) => features.find(({ properties }) => properties.kind === kind);
   assert.deepEqual(of('start').geometry.coordinates, [5, 5]);
   assert.deepEqual(of('trip').geometry.coordinates, [
@@ -234,14 +218,14 @@ test('a vehicle that flies is drawn, told and played as what it is', () => {
   );
   const [, there] = flown.vehicles[0].trips[0].stops;
   assert.deepEqual(there.line, [[0, 0], [10, 0]]);
-  const [{ doing, location }] = playback(flown, flownLines(request))(10).trucks;
+  const [{ doing, location }] = playback(flown)(10).trucks;
   assert.equal(doing, 'flies');
   assert.equal(location[1], 0, 'straight, as it is flown');
   const facts = new Map(describe(request, flown, 't:0/0').facts);
   assert.equal(facts.get('Energy'), '12.3 Wh');
   assert.ok(facts.has('Flown') && !facts.has('Driven'));
   assert.equal(new Map(describe(request, flown, 'l:0/0/1').facts).get('Flown by'), 'van-1');
-  const { features } = geoJson(flown, flownLines(request));
+  const { features } = geoJson(flown);
   assert.equal(features.find(({ properties }) => properties.kind === 'trip').properties.flies, true);
 });
 
@@ -253,20 +237,6 @@ test('a vehicle that flies is charged before its trip, which is a bar of its own
   }));
   assert.deepEqual([bars[0].kind, bars[0].from, bars[0].until], ['charge', -90, -30]);
   assert.ok(ACTIVITIES.includes('charge'));
-});
-
-test('an own trip around an area is flown and drawn around it', () => {
-  const request = {
-    ...REQUEST,
-    fleet: [{ id: 'van', count: 1, capacity: [5], flies: true }],
-    airspace: { no_fly: [[[4, -3], [6, -3], [6, 3], [4, 3]]] },
-  };
-  const plan = {
-    ...PLAN,
-    routes: [{ ...PLAN.routes[0], trips: [{ ...PLAN.routes[0].trips[0], sorties: [] }] }],
-  };
-  const [, there] = indexPlan(request, plan).vehicles[0].trips[0].stops;
-  assert.ok(there.line.length > 2);
 });
 
 test('a stop at a launch site is told as one, with its own window', () => {
@@ -288,7 +258,7 @@ test('a stop at a launch site is told as one, with its own window', () => {
   assert.deepEqual([pier.location, pier.window], [[5, 5], { latest: 80 }]);
   assert.deepEqual([back.location, back.window], [[10, 0], null]);
   assert.equal(describe(request, told, pier.key).title, 'Launch site pier');
-  const { features } = geoJson(told, flownLines(request));
+  const { features } = geoJson(told);
   assert.ok(features.some(({ properties }) => properties.kind === 'launch_site'));
 });
 
@@ -301,4 +271,13 @@ test('a row is dark while its vehicle does not work or its depot is closed', () 
     [[0, 300], [900, 1000], [800, 1000]]);
   assert.deepEqual(closed({ depot: 'yard', shift: { earliest: 2000, latest: 3000 } }),
     [[0, 1000], [800, 1000]]);
+});
+
+test('a row is dark while all depots that its vehicle may use are closed, in between, too', () => {
+  const depots = [{ id: 'hub', time_window: { earliest: 600, latest: 900 } },
+    { id: 'yard', time_window: { earliest: 100, latest: 300 } },
+    { id: 'other', time_window: { earliest: 0, latest: 1000 } }];
+  const closed = (type) => closedOf({ type }, { depots }, [0, 1000]);
+  assert.deepEqual(closed({ reload_depots: ['yard'] }), [[0, 100], [300, 600], [900, 1000]]);
+  assert.deepEqual(closed({ depot: 'hub', reload_depots: ['hub', 'other'] }), []);
 });

@@ -43,9 +43,7 @@ export function undo() {
     const { request, past, ahead } = state;
     if (!past.length) return {};
     const before = {
-      request: past[past.length - 1],
-      past: past.slice(0, -1),
-      ahead: [...ahead, request],
+      request: past[past.length - 1], past: past.slice(0, -1), ahead: [...ahead, request],
     };
     return { ...before, errors: [], ...formerPlan(state, before) };
   });
@@ -67,10 +65,7 @@ export function redo() {
     const next = ahead[ahead.length - 1];
     const made = next.replan && plans.filter((entry) => entry.request === next).pop();
     return {
-      request: next,
-      past: [...past, request],
-      ahead: ahead.slice(0, -1),
-      errors: [],
+      request: next, past: [...past, request], ahead: ahead.slice(0, -1), errors: [],
       ...(made && { shown: made.number }),
     };
   });

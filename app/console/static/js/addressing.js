@@ -48,8 +48,7 @@ export async function placeAddresses(onProgress) {
   if (!sought.length || !config.finds_addresses) return;
   await ask(
     sought.map(({ address }) => address),
-    onProgress,
-  );
+    onProgress);
   const { request: placed, doubts } = withFound(request, known);
   store.set((state) => {
     if (state.request !== request) return {};
@@ -123,8 +122,7 @@ export function leaveOutUnplaced() {
     const out = new Set(
       doubtedPlaces(request, {})
         .filter(({ doubt }) => doubt === null)
-        .map(({ id }) => id),
-    );
+        .map(({ id }) => id));
     return { ...request, customers: request.customers.filter(({ id }) => !out.has(id)) };
   });
 }

@@ -1,6 +1,6 @@
 /** The service's endpoints. Every call may throw `ApiError`. */
 
-import { eventReader } from './core/sse.js';
+import { createParser } from '../vendor/eventsource-parser-3.1.1/index.js';
 import { t } from './texts.js';
 
 const KEY = 'tandem-api-key';
@@ -66,11 +66,7 @@ async function ask(path, options) {
     return await fetch(new URL(path, document.baseURI), options);
   } catch (error) {
     if (error.name === 'AbortError') throw error;
-    throw new ApiError(
-      0,
-      t('failed.unreached'),
-      t('failed.offline'),
-    );
+    throw new ApiError(0, t('failed.unreached'), t('failed.offline'));
   }
 }
 
@@ -83,8 +79,7 @@ async function errorOf(response) {
     response.status,
     problem.title ?? t('failed.answered', { status: String(response.status) }),
     (problem.detail ?? t('failed.noReason')) + wait,
-    problem.errors ?? [],
-  );
+    problem.errors ?? []);
 }
 
 async function json(path, options) {
@@ -163,12 +158,16 @@ export async function postFlights(question) {
   return { name, content: await response.blob() };
 }
 
-/** Start a job: `kind` is `jobs`, `compare` or `sweep`. Return it. */
-export const startJob = (kind, { base, ...body }) =>
-  json(kind, {
-    method: 'POST',
-    body: base ? { ...body, base: toldInSeconds(base) } : toldInSeconds(body),
-  });
+/** Start a job: `kind` is `jobs`, `compare` or `sweep`, whose plans tell their ways. Return it. */
+export const startJob = (kind, { base, ...body }) => json(kind, {
+  method: 'POST',
+  body: base ? { ...body, base: toldInSeconds(withWays(base)) } : toldInSeconds(body),
+});
+
+/** Return a request whose reply tells the ways of all legs. */
+export function withWays(request) {
+  return { ...request, options: { ...request.options, geometry: true } };
+}
 
 /** Return a job with what it has found so far. */
 export const getJob = (id) => json(`jobs/${encodeURIComponent(id)}`);
@@ -189,8 +188,7 @@ export const getDispatch = (id) => json(`dispatches/${id}`);
 /** Return what to plan on from, by what drivers told. */
 export const getGoingOn = (id, answers) => {
   const asked = Object.entries(answers ?? {}).flatMap(([name, value]) =>
-    [value].flat().map((each) => [name, String(each)]),
-  );
+    [value].flat().map((each) => [name, String(each)]));
   return json(`dispatches/${id}/replan?${new URLSearchParams(asked)}`);
 };
 
@@ -301,33 +299,31 @@ export const followJob = (id, onProgress, signal) =>
 async function follow(path, onEvent, signal) {
   let last = null;
   let ended = null;
-  const read = eventReader((event) => {
+  const onEach = (event) => {
     last = event.id ?? last;
     ended = onEvent(event) ?? ended;
-  });
+  };
   for (let failures = 0; !ended;) {
     try {
-      await readEvents(path, last, read, signal);
+      await readEvents(path, last, onEach, signal);
       failures = 0;
     } catch (error) {
       failures += 1;
       const mayPass = error.status === 0 || error.status === 503;
       if (!mayPass || failures > MOST_RESUMES) throw error;
     }
-    if (!ended)
-      await new Promise((resolve) => {
-        setTimeout(resolve, RESUME_MS);
-      });
+    if (!ended) await new Promise((resolve) => setTimeout(resolve, RESUME_MS));
   }
   return ended;
 }
 
-async function readEvents(path, last, read, signal) {
+async function readEvents(path, last, onEvent, signal) {
+  const { feed } = createParser({ onEvent });
   const headers = { Accept: 'text/event-stream', ...(last && { 'Last-Event-ID': last }) };
   const response = await send(path, { headers, signal });
   const reader = response.body.pipeThrough(new TextDecoderStream()).getReader();
   try {
-    for (let part = await reader.read(); !part.done; part = await reader.read()) read(part.value);
+    for (let part = await reader.read(); !part.done; part = await reader.read()) feed(part.value);
   } catch (error) {
     if (error.name === 'AbortError') throw error;
     // The connection broke: the caller resumes after the last event.

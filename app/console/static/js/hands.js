@@ -70,8 +70,7 @@ function change(decide) {
 async function judge(entry, { request, decided, moved, added = null, words }) {
   store.set({ judging: words });
   try {
-    const problem = { ...request, options: { ...request.options, geometry: true } };
-    const verdict = await api.postCheck({ problem, plan: decided });
+    const verdict = await api.postCheck({ problem: api.withWays(request), plan: decided });
     store.set((state) => applied(state, entry, {
       request, added, moved, words, verdict, plan: judgedPlan(entry.plan, decided, verdict),
     }));
@@ -176,8 +175,7 @@ export function undoStep() {
   const step = stepBack(store.get());
   if (step) {
     store.set((state) => ({
-      ...swapped(state, step, 'before'),
-      steps: state.steps.slice(0, -1),
+      ...swapped(state, step, 'before'), steps: state.steps.slice(0, -1),
       undone: [...state.undone, step],
     }));
   }
@@ -195,8 +193,7 @@ export function redoStep() {
   const step = stepForth(store.get());
   if (step) {
     store.set((state) => ({
-      ...swapped(state, step, 'after'),
-      steps: [...state.steps, step],
+      ...swapped(state, step, 'after'), steps: [...state.steps, step],
       undone: state.undone.slice(0, -1),
     }));
   }
@@ -229,12 +226,8 @@ export async function askFit(customer, order = null) {
   store.set({ fit });
   try {
     const told = await api.postFit({
-      problem: { ...asked, options: { ...asked.options, geometry: true } },
-      plan: entry.plan,
-      ...subjectOf(customer, known, whole),
-      count: PLACES,
-      one_per_vehicle: fit.isOrder,
-      options: { time_limit: FIT_SECONDS },
+      problem: api.withWays(asked), plan: entry.plan, ...subjectOf(customer, known, whole),
+      count: PLACES, one_per_vehicle: fit.isOrder, options: { time_limit: FIT_SECONDS },
     });
     store.set((state) => (state.fit === fit ? { fit: { ...fit, told } } : {}));
     return true;

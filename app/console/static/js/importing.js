@@ -20,18 +20,9 @@ export async function beginImport(file) {
   store.set({
     failure: null,
     importing: {
-      file,
-      name: file.name,
-      mapping: {},
-      texts: {},
-      choices: {},
-      corrections: {},
-      places: kept(KEPT_PLACES) ?? {},
-      leavesUnplaced: false,
-      placing: null,
-      reply: null,
-      busy: true,
-      failure: null,
+      file, name: file.name, mapping: {}, texts: {}, choices: {}, corrections: {},
+      places: kept(KEPT_PLACES) ?? {}, leavesUnplaced: false, placing: null, reply: null,
+      busy: true, failure: null,
     },
   });
   const reply = await ask();

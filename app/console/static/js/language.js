@@ -37,8 +37,7 @@ export function speaking(texts, load = null) {
   const library = createInstance().use(NUMBERS);
   library.init({
     resources: Object.fromEntries(
-      Object.entries(texts).map(([name, translation]) => [name, { translation }]),
-    ),
+      Object.entries(texts).map(([name, translation]) => [name, { translation }])),
     initAsync: false,
     lng: FALLBACK,
     fallbackLng: FALLBACK,
@@ -46,8 +45,7 @@ export function speaking(texts, load = null) {
     interpolation: { escapeValue: false, alwaysFormat: true },
   });
   const said = Object.fromEntries(
-    Object.keys(texts).map((name) => [name, library.getFixedT(name)]),
-  );
+    Object.keys(texts).map((name) => [name, library.getFixedT(name)]));
   let language;
 
   function speak(name) {
@@ -67,8 +65,7 @@ export function speaking(texts, load = null) {
       const nodes = Object.values(values);
       const marks = Object.keys(values).map((name, at) => [
         name,
-        typeof values[name] === 'object' ? `${MARK}${at}${MARK}` : values[name],
-      ]);
+        typeof values[name] === 'object' ? `${MARK}${at}${MARK}` : values[name]]);
       const text = t(key, Object.fromEntries(marks));
       return text
         .split(MARK)

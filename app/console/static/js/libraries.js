@@ -15,23 +15,21 @@ const loading = new Map();
 
 /** Add a script or style sheet to the page, once. */
 function load(path) {
-  if (!loading.has(path)) {
-    const isStyle = path.endsWith('.css');
-    loading.set(
-      path,
-      new Promise((resolve, reject) => {
-        const url = new URL(path, VENDOR).href;
-        const element = isStyle
-          ? Object.assign(document.createElement('link'), { rel: 'stylesheet', href: url })
-          : Object.assign(document.createElement('script'), { src: url });
-        element.onload = resolve;
-        element.onerror = () => reject(new Error(`${path} could not be loaded.`));
-        // Ahead of the console's own style sheets, which may say otherwise.
-        document.head.prepend(element);
-      }),
-    );
-  }
+  if (!loading.has(path)) loading.set(path, added(path));
   return loading.get(path);
+}
+
+function added(path) {
+  const url = new URL(path, VENDOR).href;
+  const element = path.endsWith('.css')
+    ? Object.assign(document.createElement('link'), { rel: 'stylesheet', href: url })
+    : Object.assign(document.createElement('script'), { src: url });
+  // Ahead of the console's own style sheets, which may say otherwise.
+  document.head.prepend(element);
+  return new Promise((resolve, reject) => {
+    element.onload = resolve;
+    element.onerror = () => reject(new Error(`${path} could not be loaded.`));
+  });
 }
 
 /** Return Leaflet, which index.html loads. */
@@ -42,8 +40,7 @@ export function leaflet() {
 /** Return uPlot, the curves. */
 export async function uPlot() {
   await Promise.all(
-    ['uplot-1.6.32/uPlot.min.css', 'uplot-1.6.32/uPlot.iife.min.js'].map(load),
-  );
+    ['uplot-1.6.32/uPlot.min.css', 'uplot-1.6.32/uPlot.iife.min.js'].map(load));
   return window.uPlot;
 }
 

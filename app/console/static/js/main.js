@@ -31,8 +31,7 @@ async function begin() {
     (wasWrong) =>
       new Promise((resolve) => {
         store.set({ dialog: { name: 'key', wasWrong, answer: resolve } });
-      }),
-  );
+      }));
   const root = document.getElementById('app');
   root.replaceChildren();
   render(html`<${App} />`, root);
@@ -49,17 +48,13 @@ async function begin() {
     const [description, config, restored] = await Promise.all([
       api.getDescription(),
       api.getConfig(),
-      startKeeping(tokenInAddress() !== null || dayInAddress() !== null),
-    ]);
+      startKeeping(tokenInAddress() !== null || dayInAddress() !== null)]);
     const { examples } = description.paths['/plan'].post.requestBody.content['application/json'];
     store.set({
       config,
       schemas: description.components.schemas,
       examples: Object.entries(examples).map(([name, { summary, value }]) => ({
-        name,
-        summary,
-        request: value,
-        isFirst: name === FIRST_EXAMPLE,
+        name, summary, request: value, isFirst: name === FIRST_EXAMPLE,
       })),
     });
     await open(restored, examples);

@@ -38,8 +38,7 @@ async function isPlaced() {
   if (current) await stop();
   try {
     await placeAddresses((known, all) =>
-      note({ state: 'decoding', waiting: t('run.addresses', { known, all }) }),
-    );
+      note({ state: 'decoding', waiting: t('run.addresses', { known, all }) }));
   } catch (error) {
     showFailure(error);
     return false;
@@ -218,8 +217,7 @@ async function follow(task) {
       if (progress.cost !== null && progress.cost !== undefined) addPoint(task, progress.cost);
       if (progress.improved) fetching();
     },
-    task.controller.signal,
-  );
+    task.controller.signal);
   const ended = await api.getJob(task.job);
   if (current !== task) return;
   if (ended.error) throw new api.ApiError(0, t('failed.search'), ended.error);
@@ -262,10 +260,7 @@ function keep(task, reply) {
     const before = state.plans.find(({ number }) => number === task.number);
     if (before && before.plan.cost.total < reply.cost.total) return {};
     const entry = entryAfter(task.former, {
-      number: task.number,
-      name: before?.name ?? task.name,
-      request: task.request,
-      plan: reply,
+      number: task.number, name: before?.name ?? task.name, request: task.request, plan: reply,
     });
     const others = state.plans.filter(({ number }) => number !== task.number);
     const besides = before ? state.besides : (task.former?.number ?? null);

@@ -56,8 +56,7 @@ async function follow(own, id) {
           note({ result });
       }
     },
-    own.signal,
-  );
+    own.signal);
   const ended = await api.getJob(id);
   if (controller === own)
     note({ state: ended.state, progress: 1, result: ended.result, error: ended.error });
@@ -70,15 +69,10 @@ async function finish(own, work) {
   } catch (error) {
     if (controller === own) {
       store.set({ scenario: null });
-      showFailure({
-        ...error,
-        title: error.title,
-        message: error.message,
-        errors: (error.errors ?? []).map((entry) => ({
-          ...entry,
-          path: entry.path.replace(/^\$\.base\b/, '$'),
-        })),
-      });
+      const { title, message, errors = [] } = error;
+      showFailure({ ...error, title, message, errors: errors.map((entry) => ({
+        ...entry, path: entry.path.replace(/^\$\.base\b/, '$'),
+      })) });
     }
   }
 }
@@ -109,12 +103,8 @@ export function showScenarioPlan(request, plan, name = null) {
       plan,
     });
     return {
-      plans: [...state.plans, entry],
-      shown: number,
-      besides: state.shown,
-      ...editedTo(state, request),
-      selection: null,
-      hover: null,
+      plans: [...state.plans, entry], shown: number, besides: state.shown,
+      ...editedTo(state, request), selection: null, hover: null,
     };
   });
   openTab('changes');

@@ -16,5 +16,4 @@ const first = wanted();
  */
 export const { t, parts, language, choose } = speaking(
   { [first]: await load(first) },
-  load,
-);
+  load);

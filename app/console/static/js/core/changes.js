@@ -1,6 +1,6 @@
 /** Changes to a problem; each returns the changed request. */
 
-import { isInside } from './detour.js';
+import { isInside } from './geometry.js';
 import { removeIn, setIn } from './paths.js';
 import { assumedDrones } from './presets.js';
 import { windowsOf, withWindows } from './windows.js';
@@ -83,14 +83,12 @@ export function giveWindows(request, ids, windows) {
           ...(isLast && price !== undefined && { late_cost_per_hour: price }),
           ...window,
         };
-      }),
-    );
+      }));
   };
   return {
     ...request,
     customers: request.customers.map((customer) =>
-      given.has(customer.id) ? renewed(customer) : customer,
-    ),
+      given.has(customer.id) ? renewed(customer) : customer),
   };
 }
 
@@ -108,8 +106,7 @@ export function customersWithin(request, [west, south, east, north]) {
         location[0] >= west &&
         location[0] <= east &&
         location[1] >= south &&
-        location[1] <= north,
-    )
+        location[1] <= north)
     .map(({ id }) => id);
 }
 
@@ -141,9 +138,7 @@ export function setArea(request, ring, position = request.airspace?.no_fly?.leng
 /** Remove the no-fly areas at a point. */
 export function eraseAreasAt(request, point) {
   const rings = request.airspace?.no_fly ?? [];
-  // Scaled, as being inside is judged in metres.
-  const scale = ([x, y]) => [x * 1e5, y * 1e5];
-  const kept = rings.filter((ring) => !isInside(ring.map(scale), scale(point)));
+  const kept = rings.filter((ring) => !isInside(ring, point));
   return kept.length === rings.length ? request : setIn(request, ['airspace', 'no_fly'], kept);
 }
 

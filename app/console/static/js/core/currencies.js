@@ -1,26 +1,12 @@
 /** What costs are in where nobody says so: the currency of where the browser is. */
 
 const BY_ZONE = {
-  'Europe/London': 'GBP',
-  'Europe/Zurich': 'CHF',
-  'Europe/Vaduz': 'CHF',
-  'Europe/Warsaw': 'PLN',
-  'Europe/Prague': 'CZK',
-  'Europe/Budapest': 'HUF',
-  'Europe/Bucharest': 'RON',
-  'Europe/Stockholm': 'SEK',
-  'Europe/Oslo': 'NOK',
-  'Europe/Copenhagen': 'DKK',
-  'Europe/Istanbul': 'TRY',
-  'Asia/Tokyo': 'JPY',
-  'Asia/Shanghai': 'CNY',
-  'Asia/Kolkata': 'INR',
-  'Asia/Calcutta': 'INR',
-  'America/Sao_Paulo': 'BRL',
-  'America/Mexico_City': 'MXN',
-  'America/Toronto': 'CAD',
-  'America/Vancouver': 'CAD',
-  'Pacific/Auckland': 'NZD',
+  'Europe/London': 'GBP', 'Europe/Zurich': 'CHF', 'Europe/Vaduz': 'CHF', 'Europe/Warsaw': 'PLN',
+  'Europe/Prague': 'CZK', 'Europe/Budapest': 'HUF', 'Europe/Bucharest': 'RON',
+  'Europe/Stockholm': 'SEK', 'Europe/Oslo': 'NOK', 'Europe/Copenhagen': 'DKK',
+  'Europe/Istanbul': 'TRY', 'Asia/Tokyo': 'JPY', 'Asia/Shanghai': 'CNY', 'Asia/Kolkata': 'INR',
+  'Asia/Calcutta': 'INR', 'America/Sao_Paulo': 'BRL', 'America/Mexico_City': 'MXN',
+  'America/Toronto': 'CAD', 'America/Vancouver': 'CAD', 'Pacific/Auckland': 'NZD',
 };
 
 const EURO_CITIES = [

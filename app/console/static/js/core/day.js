@@ -113,8 +113,7 @@ function clocksOf(zone) {
 
 function offsetBy(format, instant) {
   const part = Object.fromEntries(
-    format.formatToParts(instant).map(({ type, value }) => [type, Number(value)]),
-  );
+    format.formatToParts(instant).map(({ type, value }) => [type, Number(value)]));
   const wall = Date.UTC(
     part.year, part.month - 1, part.day, part.hour, part.minute, part.second);
   return (wall - instant) / MINUTE;

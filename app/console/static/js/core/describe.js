@@ -13,6 +13,9 @@ import { t } from '../texts.js';
 /** So many reasons why a customer is left out are told at once. */
 const MOST_REASONS = 3;
 
+/** What of a customer's `info` imports name, and so has words. */
+const CARRIED = new Set(['address', 'order', 'phone', 'email', 'contact', 'notes']);
+
 /** Return title and facts of what a key names: `{title, facts: [[term, value]], late}`. */
 export function describe(request, index, key) {
   if (!key) return null;
@@ -46,8 +49,7 @@ function titleOf({ kind, id }) {
 function customerFacts(customer) {
   const facts = [
     [t('about.demand'), amounts(customer.demand)],
-    [t('about.window'), windowsInWords(windowsOf(customer))],
-  ];
+    [t('about.window'), windowsInWords(windowsOf(customer))]];
   if (customer.pickup) facts.push([t('about.pickup'), amounts(customer.pickup)]);
   if (customer.service_duration) {
     facts.push([t('about.service'), duration(customer.service_duration)]);
@@ -62,8 +64,7 @@ function customerFacts(customer) {
   if (customer.max_time_aboard != null) {
     facts.push([
       t('about.aboard'),
-      t('about.atMost', { time: duration(customer.max_time_aboard) }),
-    ]);
+      t('about.atMost', { time: duration(customer.max_time_aboard) })]);
   }
   if (customer.approach) {
     facts.push([t('field.approach'), choiceOf(customer.approach, 'approach')]);
@@ -83,7 +84,9 @@ function customerFacts(customer) {
   if (customer.alternatives?.length) {
     facts.push([t('field.alternatives'), customer.alternatives.map(({ id }) => id).join(', ')]);
   }
-  facts.push(...Object.entries(customer.info ?? {}));
+  for (const [name, told] of Object.entries(customer.info ?? {})) {
+    facts.push([CARRIED.has(name) ? t(`import.meaning.${name}`) : name, told]);
+  }
   const price = customer.unassigned_cost;
   if (price !== null && price !== undefined) {
     facts.push([t('about.leftOut'), t('about.costs', { price: money(price) })]);
@@ -98,17 +101,14 @@ function servedFacts(index, halt, key) {
   return [
     [t('about.served'), out ? t('about.isOut') : t('about.notYet')],
     ...(out?.reasons ?? []).slice(0, MOST_REASONS).map((reason) => [
-      t('about.notBecause', { type: reason.vehicle_type }), saidOf(reason),
-    ]),
-  ];
+      t('about.notBecause', { type: reason.vehicle_type }), saidOf(reason)])];
 }
 
 /** Return what happens at a halt. */
 export function haltFacts(halt) {
   const facts = [
     [t('about.servedBy'), nameOfVehicle(halt.sortie ? halt.sortie.drone : halt.vehicle.name)],
-    [t('about.arrival'), clock(halt.arrival, { precise: true })],
-  ];
+    [t('about.arrival'), clock(halt.arrival, { precise: true })]];
   if (!isVisit(halt)) facts[0][0] = t('about.vehicle');
   if (halt.alternative) facts.push([t('about.servedAt'), halt.alternative]);
   if (halt.part) facts.push([t('about.part'), halt.part]);
@@ -119,8 +119,7 @@ export function haltFacts(halt) {
       t('about.waitsUntil', {
         time: duration(halt.waiting),
         until: clock(halt.serviceStart, { precise: true }),
-      }),
-    ]);
+      })]);
   }
   facts.push([t('about.departure'), clock(halt.departure, { precise: true })]);
   if (halt.lateness > 0) facts.push([t('about.lateBy'), duration(halt.lateness)]);
@@ -146,8 +145,7 @@ function describeSortie(index, key) {
       [t('about.flown'), t('about.kmIn', {
         way: km(reply.distance),
         time: duration(reply.duration),
-      })],
-    ],
+      })]],
   };
 }
 
@@ -170,8 +168,7 @@ function describeTrip(index, key) {
       [t('about.stops'), String(trip.stops.filter(isVisit).length)],
       trip.vehicle.flies
         ? [t('about.energy'), wattHours(trip.reply.energy_wh)]
-        : [t('about.flights'), String(trip.sorties.length)],
-    ],
+        : [t('about.flights'), String(trip.sorties.length)]],
   };
 }
 
@@ -189,8 +186,7 @@ function describeLeg(request, index, key) {
       [flies ? t('about.flown') : drivenInWords(leg), length(metres)],
       [t('about.takes'), duration(leg.arrival - before.departure)],
       [t('about.departure'), clock(before.departure, { precise: true })],
-      [t('about.arrival'), clock(leg.arrival, { precise: true })],
-    ],
+      [t('about.arrival'), clock(leg.arrival, { precise: true })]],
   };
 }
 
@@ -210,7 +206,6 @@ function describeVehicle(index, key) {
     facts: [
       [t('about.type'), vehicle.route.type],
       [t('about.trips'), String(vehicle.trips.length)],
-      [t('about.works'), duration(vehicle.route.working_duration)],
-    ],
+      [t('about.works'), duration(vehicle.route.working_duration)]],
   };
 }

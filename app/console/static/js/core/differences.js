@@ -14,8 +14,7 @@ export function requestDifferences(before, after, path = '') {
   if (isObject(before) && isObject(after)) {
     const names = new Set([...Object.keys(before), ...Object.keys(after)]);
     return [...names].flatMap((name) =>
-      requestDifferences(before[name], after[name], path ? `${path}.${name}` : name),
-    );
+      requestDifferences(before[name], after[name], path ? `${path}.${name}` : name));
   }
   if (hasIds(before) && hasIds(after)) return entryDifferences(before, after, path);
   const same = JSON.stringify(before ?? null) === JSON.stringify(after ?? null);
@@ -32,8 +31,7 @@ function hasIds(value) {
 
 function entryDifferences(before, after, path) {
   const [old, now] = [before, after].map(
-    (entries) => new Map(entries.map((entry) => [entry.id, entry])),
-  );
+    (entries) => new Map(entries.map((entry) => [entry.id, entry])));
   const ids = new Set([...old.keys(), ...now.keys()]);
   return [...ids].flatMap((id) => {
     const place = `${path}[${id}]`;
@@ -44,32 +42,19 @@ function entryDifferences(before, after, path) {
 }
 
 const MEASURES = [
-  'served',
-  'vehicles',
-  'trips',
-  'sorties',
-  'distance',
-  'drone_distance',
-  'makespan',
-];
+  'served', 'vehicles', 'trips', 'sorties', 'distance', 'drone_distance', 'makespan'];
 
 /** Return measures of two plans: `[{key, name, before, now}]`. */
 export function planMeasures(before, now) {
   const summaries = MEASURES.map((key) => ({
-    key,
-    name: t(`measure.${key}`),
-    before: before.summary[key],
-    now: now.summary[key],
+    key, name: t(`measure.${key}`), before: before.summary[key], now: now.summary[key],
   }));
   return [
     ...summaries,
     {
-      key: 'load_rate',
-      name: t('measure.load_rate'),
-      before: before.summary.load_rate.mean,
+      key: 'load_rate', name: t('measure.load_rate'), before: before.summary.load_rate.mean,
       now: now.summary.load_rate.mean,
-    },
-  ];
+    }];
 }
 
 /** Return what a plan costs and serves beside the former, in a sentence. */
@@ -100,9 +85,7 @@ export function movedCustomers(former, entry, pairs = matchVehicles(former, entr
   return [...new Set([...before.keys(), ...now.keys()])]
     .filter((id) => !stayed(before.get(id), now.get(id)))
     .map((id) => ({
-      id,
-      before: before.get(id)?.shown ?? null,
-      now: now.get(id)?.shown ?? null,
+      id, before: before.get(id)?.shown ?? null, now: now.get(id)?.shown ?? null,
     }));
 }
 

@@ -54,9 +54,7 @@ export function linksByVehicle(dispatch) {
   return new Map(
     (dispatch?.reply.links ?? []).map((link) => [
       link.vehicle,
-      { ...link, ...dispatch.made[link.id] },
-    ]),
-  );
+      { ...link, ...dispatch.made[link.id] }]));
 }
 
 /** Return what was told of links when they were made, with that of a reply. */

@@ -10,18 +10,8 @@ const MOST_PAST = 20;
 
 /** What of the state is kept as it is, with the head. */
 const PLAIN = [
-  'name',
-  'note',
-  'home',
-  'shown',
-  'besides',
-  'tab',
-  'scenarioSeconds',
-  'keptFleets',
-  'sweepAxes',
-  'doubts',
-  'locks',
-];
+  'name', 'note', 'home', 'shown', 'besides', 'tab', 'scenarioSeconds', 'keptFleets', 'sweepAxes',
+  'doubts', 'locks'];
 
 /** What of the state has to be kept anew when it is another. */
 const KEPT = [...PLAIN, 'request', 'stated', 'past', 'ahead', 'plans', 'saved', 'scenario'];
@@ -40,8 +30,7 @@ export function identifier(makeId) {
 /** Tell whether two states are kept as the same. */
 export function isKeptAlike(before, after) {
   return (
-    KEPT.every((field) => before[field] === after[field]) && jobOf(before) === jobOf(after)
-  );
+    KEPT.every((field) => before[field] === after[field]) && jobOf(before) === jobOf(after));
 }
 
 function jobOf({ run }) {
@@ -79,25 +68,18 @@ export function pack(state, identify) {
     past: state.past.slice(-MOST_PAST).map(keepRequest),
     ahead: state.ahead.slice(-MOST_PAST).map(keepRequest),
     plans: state.plans.map((entry) => ({
-      ...entry,
-      request: keepRequest(entry.request),
-      plan: keep(entry.plan),
+      ...entry, request: keepRequest(entry.request), plan: keep(entry.plan),
     })),
     saved: saved && { request: keepRequest(saved.request), plan: keep(saved.plan) },
     run:
       run.state === 'idle'
         ? null
         : {
-            number: run.number,
-            name: run.name,
-            former: run.former,
-            job: run.job ?? null,
+            number: run.number, name: run.name, former: run.former, job: run.job ?? null,
             request: keepRequest(run.request),
           },
     scenario: scenario && {
-      ...scenario,
-      body: keep(scenario.body),
-      result: keep(scenario.result),
+      ...scenario, body: keep(scenario.body), result: keep(scenario.result),
     },
     isTrivial: !state.home && !isUnsaved(state),
     customers: state.request?.customers?.length ?? 0,
@@ -127,23 +109,18 @@ export function unpack(head, parts, identify) {
   const part = (id) => (id ? whole.get(id) : null);
   return {
     ...Object.fromEntries(
-      PLAIN.filter((field) => field in head).map((field) => [field, head[field]]),
-    ),
+      PLAIN.filter((field) => field in head).map((field) => [field, head[field]])),
     request: part(head.request),
     ...(head.stated && { stated: part(head.stated) }),
     past: head.past.map(part),
     ahead: (head.ahead ?? []).map(part),
     plans: head.plans.map((entry) => ({
-      ...entry,
-      request: part(entry.request),
-      plan: part(entry.plan),
+      ...entry, request: part(entry.request), plan: part(entry.plan),
     })),
     saved: head.saved && { request: part(head.saved.request), plan: part(head.saved.plan) },
     cut: head.run && { ...head.run, request: part(head.run.request) },
     scenario: head.scenario && {
-      ...head.scenario,
-      body: part(head.scenario.body),
-      result: part(head.scenario.result),
+      ...head.scenario, body: part(head.scenario.body), result: part(head.scenario.result),
     },
   };
 }
@@ -162,8 +139,7 @@ export function partsOf(head) {
     run?.request,
     scenario?.body,
     scenario?.result,
-    ...Object.values(bases),
-  ];
+    ...Object.values(bases)];
   return [...new Set(ids.filter(Boolean))];
 }
 

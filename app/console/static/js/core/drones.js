@@ -24,28 +24,11 @@ export function dronesOfSortie(type, { drone }) {
 
 /** Fields of a vehicle type that only trucks have, and that only those have that fly. */
 const OF_TRUCKS = [
-  'drones',
-  'speed_profile',
-  'start_location',
-  'start_location_index',
-  'end',
-  'max_sorties',
-  'max_airborne',
-  'truck_waits',
-  'revisits',
-  'avoid',
-];
+  'drones', 'speed_profile', 'start_location', 'start_location_index', 'end', 'max_sorties',
+  'max_airborne', 'truck_waits', 'revisits', 'avoid'];
 const OF_FLYING = [
-  'altitude',
-  'endurance',
-  'max_range',
-  'max_wind_kmh',
-  'preset',
-  'launch_duration',
-  'recovery_duration',
-  'energy',
-  'turnaround',
-];
+  'altitude', 'endurance', 'max_range', 'max_wind_kmh', 'preset', 'launch_duration',
+  'recovery_duration', 'energy', 'turnaround'];
 
 /** Return the fields that a vehicle type can't have; one that is stated stays, to be taken out. */
 export function needlessFields(type) {

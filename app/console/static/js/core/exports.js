@@ -1,6 +1,7 @@
 /** A plan as CSV, GeoJSON and GPX. */
 
 import { csvCell } from './csv.js';
+import { flownLegs } from './flights.js';
 import { clock } from './format.js';
 import { placeOf } from './places.js';
 import { standsOf } from './stands.js';
@@ -8,24 +9,8 @@ import { visitsOf } from './visits.js';
 import { t } from '../texts.js';
 
 const COLUMNS = [
-  'vehicle',
-  'trip',
-  'position',
-  'kind',
-  'id',
-  'drone',
-  'arrival',
-  'service_start',
-  'departure',
-  'arrival_s',
-  'service_start_s',
-  'departure_s',
-  'waiting_s',
-  'lateness_s',
-  'x',
-  'y',
-  'load',
-];
+  'vehicle', 'trip', 'position', 'kind', 'id', 'drone', 'arrival', 'service_start', 'departure',
+  'arrival_s', 'service_start_s', 'departure_s', 'waiting_s', 'lateness_s', 'x', 'y', 'load'];
 
 /** Return every stop and every customer served by drone, in order of vehicle, trip and time. */
 export function stopRows(index) {
@@ -35,8 +20,7 @@ export function stopRows(index) {
       const halts = [...trip.stops, ...visits].map((halt, position) => ({ halt, position }));
       halts.sort(
         (first, second) =>
-          first.halt.arrival - second.halt.arrival || first.position - second.position,
-      );
+          first.halt.arrival - second.halt.arrival || first.position - second.position);
       // A trip's last stop stays last, though a drone may still be served there.
       return halts.map(({ halt }, position) => ({
         vehicle: vehicle.name,
@@ -58,8 +42,7 @@ export function stopRows(index) {
         load: halt.load.join(' '),
         info: halt.source?.info ?? {},
       }));
-    }),
-  );
+    }));
 }
 
 /** Return the stops as CSV with a line of names. */
@@ -72,27 +55,22 @@ export function stopsCsv(index) {
   const lines = rows.map((row) =>
     [...COLUMNS.map((name) => row[name]), ...told.map((name) => row.info[name] ?? '')]
       .map(csvCell)
-      .join(','),
-  );
+      .join(','));
   return `${[head.map(csvCell).join(','), ...lines].join('\r\n')}\r\n`;
 }
 
 /** Return customers, depots, trips, flights and no-fly areas as GeoJSON. */
-export function geoJson(index, legsOf) {
+export function geoJson(index) {
   const { request } = index;
   const features = [
     ...request.depots.flatMap((depot) => point(depot, { kind: 'depot', id: depot.id })),
     ...standsOf(request).flatMap(({ kind, id, location }) => point({ location }, { kind, id })),
     ...visitsOf(request).flatMap((customer) =>
-      point(customer, customerProperties(index, customer)),
-    ),
+      point(customer, customerProperties(index, customer))),
     ...index.vehicles.flatMap((vehicle) =>
-      vehicle.trips.flatMap((trip) => tripFeatures(trip, legsOf)),
-    ),
+      vehicle.trips.flatMap(tripFeatures)),
     ...(request.airspace?.no_fly ?? []).map((ring) =>
-      feature('Polygon', [closed(ring)], { kind: 'no_fly' }),
-    ),
-  ];
+      feature('Polygon', [closed(ring)], { kind: 'no_fly' }))];
   const collection = { type: 'FeatureCollection', features };
   // GeoJSON means degrees; a plane's coordinates are told as such.
   if (request.coordinate_system !== 'geographic') {
@@ -118,50 +96,30 @@ function customerProperties(index, customer) {
   const told = customer.info && { info: customer.info };
   if (!halt) return { kind: 'customer', id: customer.id, served: false, ...told };
   return {
-    kind: 'customer',
-    id: customer.id,
-    ...told,
-    served: true,
-    vehicle: halt.vehicle.name,
-    trip: halt.trip.index + 1,
-    drone: halt.sortie?.drone ?? null,
-    arrival: halt.arrival,
-    service_start: halt.serviceStart,
-    departure: halt.departure,
-    lateness: halt.lateness,
+    kind: 'customer', id: customer.id, ...told, served: true, vehicle: halt.vehicle.name,
+    trip: halt.trip.index + 1, drone: halt.sortie?.drone ?? null, arrival: halt.arrival,
+    service_start: halt.serviceStart, departure: halt.departure, lateness: halt.lateness,
   };
 }
 
-function tripFeatures(trip, legsOf) {
-  const places = trip.stops.flatMap(({ location }) => (location ? [location] : []));
+function tripFeatures(trip) {
   const common = { vehicle: trip.vehicle.name, trip: trip.index + 1 };
-  const lines =
-    places.length > 1
-      ? [
-          feature('LineString', joined(trip.stops.map(({ line }) => line)), {
-            kind: 'trip',
-            ...common,
-            ...(trip.vehicle.flies && { flies: true }),
-            load_rate: trip.reply.load_rate,
-            distance: trip.reply.distance,
-          }),
-        ]
-      : [];
-  const flights = trip.sorties.flatMap((sortie) => {
-    const line = joined(legsOf(sortie));
-    return line.length > 1
-      ? [
-          feature('LineString', line, {
-            kind: 'flight',
-            ...common,
-            drone: sortie.drone,
-            launch_time: sortie.reply.launch_time,
-            recovery_time: sortie.reply.recovery_time,
-          }),
-        ]
-      : [];
+  const isLine = ({ geometry }) => geometry.coordinates.length > 1;
+  const driven = feature('LineString', joined(trip.stops.map(({ line }) => line)), {
+    kind: 'trip',
+    ...common,
+    ...(trip.vehicle.flies && { flies: true }),
+    load_rate: trip.reply.load_rate,
+    distance: trip.reply.distance,
   });
-  return [...lines, ...flights];
+  const flights = trip.sorties.map((sortie) => feature('LineString', joined(flownLegs(sortie)), {
+    kind: 'flight',
+    ...common,
+    drone: sortie.drone,
+    launch_time: sortie.reply.launch_time,
+    recovery_time: sortie.reply.recovery_time,
+  }));
+  return [driven, ...flights].filter(isLine);
 }
 
 /** Return lines, each of which begins where the one before ends, as one. */
@@ -181,13 +139,12 @@ function closed(ring) {
  * Return a vehicle's trips as GPX routes, their roads, where known, and its drones' flights as
  * tracks; degrees only.
  */
-export function gpx(vehicle, legsOf) {
+export function gpx(vehicle) {
   const routes = vehicle.trips.map(
     (trip) => `  <rte>
     <name>${escaped(tripName(vehicle, trip))}</name>
 ${trip.stops.map((halt, position) => routePoint(halt, position)).join('\n')}
-  </rte>`,
-  );
+  </rte>`);
   const drives = vehicle.trips
     .filter((trip) => trip.stops.some(({ line }) => line.length > 2))
     .map((trip) =>
@@ -195,9 +152,7 @@ ${trip.stops.map((halt, position) => routePoint(halt, position)).join('\n')}
         vehicle.flies
           ? t('take.way', { trip: tripName(vehicle, trip) })
           : t('take.road', { trip: tripName(vehicle, trip) }),
-        trip.stops.map(({ line }) => line),
-      ),
-    );
+        trip.stops.map(({ line }) => line)));
   const flights = vehicle.trips
     .flatMap((trip) => trip.sorties)
     .map((sortie) =>
@@ -206,9 +161,7 @@ ${trip.stops.map((halt, position) => routePoint(halt, position)).join('\n')}
           drone: sortie.drone,
           names: sortie.visits.map(({ id }) => id).join(', '),
         }),
-        legsOf(sortie),
-      ),
-    );
+        flownLegs(sortie)));
   return `<?xml version="1.0" encoding="UTF-8"?>
 <gpx version="1.1" creator="Tandem" xmlns="http://www.topografix.com/GPX/1/1">
 ${[...routes, ...drives, ...flights].join('\n')}
@@ -250,6 +203,5 @@ export function escaped(text) {
     String(text)
       .replace(/[&<>"']/g, (character) => names[character])
       // XML has no way to write these.
-      .replace(/[\u0000-\u0008\u000b\u000c\u000e-\u001f]/g, '')
-  );
+      .replace(/[\u0000-\u0008\u000b\u000c\u000e-\u001f]/g, ''));
 }

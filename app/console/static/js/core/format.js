@@ -89,15 +89,12 @@ export function timesInWords(message) {
   return message
     .replace(
       /\b(arrival|service_start|departure|\w+_time) is ([\d.]+) s, computed ([\d.]+) s\b/g,
-      (_, what, stated, computed) => `${what} is ${exact(stated)}, computed ${exact(computed)}`,
-    )
+      (_, what, stated, computed) => `${what} is ${exact(stated)}, computed ${exact(computed)}`)
     .replace(
       /\b((?:at|before|after|from|until) )(\d+(?:\.\d+)?) s\b/g,
-      (_, when, seconds) => when + exact(seconds),
-    )
+      (_, when, seconds) => when + exact(seconds))
     .replace(/\b(\d+(?:\.\d+)?) (s|minutes?)\b(?!')/g, (_, amount, unit) =>
-      enough(Number(amount) * (unit === 's' ? 1 : 60)),
-    );
+      enough(Number(amount) * (unit === 's' ? 1 : 60)));
 }
 
 /** Return a length in words, from an hour on rounded up, so that what is said to suffice does. */

@@ -31,8 +31,7 @@ export function planeOf(request) {
   return {
     toPlane: ([lon, lat]) => [
       (lon - origin[0]) * perDegree * shrink,
-      (lat - origin[1]) * perDegree,
-    ],
+      (lat - origin[1]) * perDegree],
     fromPlane: ([x, y]) => [x / perDegree / shrink + origin[0], y / perDegree + origin[1]],
   };
 }
@@ -54,6 +53,14 @@ export function boundsOf(points) {
     bounds[3] = Math.max(bounds[3], y);
   }
   return bounds;
+}
+
+/** Tell whether a point lies inside a ring of corners. */
+export function isInside(ring, [x, y]) {
+  return ring.filter(([fromX, fromY], index) => {
+    const [toX, toY] = ring[(index + 1) % ring.length];
+    return fromY > y !== toY > y && x < fromX + ((y - fromY) / (toY - fromY)) * (toX - fromX);
+  }).length % 2 === 1;
 }
 
 /** Return the distance of two points. */

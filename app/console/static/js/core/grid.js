@@ -16,10 +16,8 @@ export function variableFields(schemas, fleet) {
         schemas.DronesInput,
         'fleet[*].drones',
         `${labelOf('drones')}: `,
-        dimensions,
-      )
-      : []),
-  ];
+        dimensions)
+      : [])];
 }
 
 function fieldsOf(schemas, schema, path, prefix, dimensions) {
@@ -52,8 +50,7 @@ const FIRST_FIELDS = [
   { path: 'fleet[*].max_working_duration', unit: 's' },
   { path: 'fleet[*].max_travel_duration', unit: 's' },
   { path: 'fleet[*].capacity[0]', unit: '' },
-  { path: 'fleet[*].count', unit: '' },
-];
+  { path: 'fleet[*].count', unit: '' }];
 
 /** Return two axes around the fleet at hand: `[{path, text}]`. */
 export function axesAround(fleet) {
@@ -103,8 +100,7 @@ export function writeAt(request, path, value) {
 /** Return the keys of a path; null stands for every entry. */
 function stepsOf(path) {
   return [...path.matchAll(/\[(\*|\d+)\]|([A-Za-z_]\w*)/g)].map(([, index, name]) =>
-    name !== undefined ? name : index === '*' ? null : Number(index),
-  );
+    name !== undefined ? name : index === '*' ? null : Number(index));
 }
 
 function placesOf(request, steps) {
@@ -114,8 +110,7 @@ function placesOf(request, steps) {
         if (step !== null) return [[...keys, step]];
         return (getIn(request, keys) ?? []).map((_, index) => [...keys, index]);
       }),
-    [[]],
-  );
+    [[]]);
 }
 
 /**
@@ -128,8 +123,7 @@ export function heatTable({ axes, cells }) {
   const width = axes.slice(1).reduce((product, { values }) => product * values.length, 1);
   const step = width / columns.length;
   const table = rows.map((_, row) =>
-    columns.map((__, column) => cells[row * width + column * step]),
-  );
+    columns.map((__, column) => cells[row * width + column * step]));
   const costs = table
     .flat()
     .map((cell) => cell?.cost)

@@ -14,8 +14,7 @@ export function flightOfSortie({ trip, reply, visits }) {
   const flyer = dronesOfSortie(type, reply);
   const [takeOff, landing] = [
     reply.launch_time,
-    reply.recovery_time - (flyer?.recovery_duration ?? 0),
-  ];
+    reply.recovery_time - (flyer?.recovery_duration ?? 0)];
   const atEnd = reply.energy_left_wh ?? null;
   const atFirst = atEnd === null ? null : atEnd + reply.energy_wh;
   const left = leftOf({ time: takeOff, wh: atFirst }, visits, { time: landing, wh: atEnd });
@@ -29,8 +28,7 @@ export function flightOfTrip({ vehicle: { type }, stops }) {
   const left = leftOf(
     { time: first.departure, wh: first.energyLeft },
     visits,
-    { time: last.arrival, wh: last.energyLeft },
-  );
+    { time: last.arrival, wh: last.energyLeft });
   const [takeOff, landing] = [first.departure, last.arrival];
   return { type, flyer: type, droneType: undefined, takeOff, landing, visits, left };
 }
@@ -39,8 +37,7 @@ function leftOf(first, visits, last) {
   const points = [
     first,
     ...visits.map(({ id, departure: time, energyLeft: wh }) => ({ id, time, wh })),
-    last,
-  ];
+    last];
   return points.some(({ wh }) => wh === null) ? [] : points;
 }
 
@@ -54,8 +51,7 @@ function leftOf(first, visits, last) {
  */
 export function heightsOf({ type, flyer, droneType, takeOff, landing, visits }, rules = []) {
   const named = rules.find(
-    (rule) => rule.vehicle_type === type?.id && rule.drone_type === droneType,
-  );
+    (rule) => rule.vehicle_type === type?.id && rule.drone_type === droneType);
   const altitude = flyer?.altitude ?? named?.planned.altitude ?? DEFAULT_ALTITUDE;
   const { lands = true, climb } = flyer?.energy ?? {};
   const { up_seconds: up = 0, down_seconds: down = 0 } = climb ?? {};

@@ -8,8 +8,7 @@ const AS_MUCH = 0.005;
 
 /** Codes of the service that have words of their own here. */
 const TOLD = new Set(
-  ['KIND', 'CAPACITY', 'RANGE', 'SORTIES', 'LAUNCH', 'LOST', 'UNAVAILABLE', 'UNTRIED'],
-);
+  ['KIND', 'CAPACITY', 'RANGE', 'SORTIES', 'LAUNCH', 'LOST', 'UNAVAILABLE', 'UNTRIED']);
 
 /** Return the names of the vehicles in use that carry drones of which none flies. */
 export function idleCarriers({ request, plan }) {

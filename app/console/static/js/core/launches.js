@@ -6,8 +6,7 @@ import { dronesOfSortie } from './drones.js';
 export function launchDurations(type, sorties) {
   const first = sorties.reduce(
     (found, sortie) => (found === null || isSooner(sortie, found) ? sortie : found),
-    null,
-  );
+    null);
   return sorties.map((sortie) => {
     const drones = dronesOfSortie(type, sortie);
     const usual = drones?.launch_duration ?? 0;
@@ -18,6 +17,5 @@ export function launchDurations(type, sorties) {
 function isSooner(one, other) {
   return (
     one.launch_stop < other.launch_stop ||
-    (one.launch_stop === other.launch_stop && one.launch_time < other.launch_time)
-  );
+    (one.launch_stop === other.launch_stop && one.launch_time < other.launch_time));
 }

@@ -8,13 +8,12 @@ export function legsInWords(legs) {
   return (legs ?? []).filter(({ by }) => by !== 'flight').map(legInWords);
 }
 
-function legInWords({ profile, by, engine, estimated, detour, note, avoid }) {
+function legInWords({ profile, by, engine, estimated, detour, avoid }) {
   if (by === 'matrix') return t('legs.matrix', { profile });
   if (by === 'straight') return t('legs.straight', { profile });
-  if (by !== 'roads') return `${t('legs.crow', { profile })} ${note ?? ''}`.trim();
+  if (by !== 'roads') return t('legs.crow', { profile });
   const without = (avoid ?? []).map((each) => choiceOf(each)).join(', ');
   const roads = t('legs.roads', { profile, engine })
     + (without && ` ${t('legs.without', { without })}`);
-  if (!estimated) return roads;
-  return `${roads}, ${t('legs.estimated', { count: estimated, detour })} ${note}`;
+  return estimated ? `${roads}, ${t('legs.estimated', { count: estimated, detour })}` : roads;
 }

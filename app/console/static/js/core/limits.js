@@ -5,10 +5,7 @@ const PER_THOUSAND = 3;
 const GROWTH = 1.2; // as the time to plans of some quality grows, see docs/operate/scaling.md
 const GONE_ON_A_SECOND = 2500; // customers of a plan that is gone on from
 const STEPS = [
-  [10, 1],
-  [60, 5],
-  [Infinity, 10],
-];
+  [10, 1], [60, 5], [Infinity, 10]];
 
 /** Return the seconds of search that fit a problem, `most` at most. */
 export function fittingSeconds({ customers }, most = Infinity) {

@@ -137,8 +137,7 @@ export function untoldOf(base, request) {
     ...request.customers.filter(isOther).map((customer) => ({
       kind: was.has(customer.id) ? 'order.changed' : 'order.placed', customer })),
     ...base.customers.filter(({ id }) => !now.has(id))
-      .map(({ id }) => ({ kind: 'order.cancelled', order: id })),
-  ];
+      .map(({ id }) => ({ kind: 'order.cancelled', order: id }))];
 }
 
 /**

@@ -5,7 +5,7 @@
  * same tours under other names. People know a vehicle by its tour.
  */
 
-import { bestAssignment } from './assignment.js';
+import { munkres } from '../../vendor/munkres-2.0.4/munkres.js';
 import { customersOf } from './replanning.js';
 
 /**
@@ -20,8 +20,7 @@ export function matchVehicles(former, entry) {
   const departed = new Set((entry.plan.replan?.settled ?? []).map(({ vehicle }) => vehicle));
   const [before, now] = [former, entry].map(({ plan }) => plan.routes);
   const owners = new Map(
-    before.flatMap((route, index) => customersOf(route).map((id) => [id, index])),
-  );
+    before.flatMap((route, index) => customersOf(route).map((id) => [id, index])));
   const mayPair = pairing(former.request, entry.request, departed);
   const shared = now.map((route) => {
     const counts = Array(before.length).fill(0);
@@ -35,23 +34,19 @@ export function matchVehicles(former, entry) {
       if (!mayPair(other, route)) return 0;
       if (departed.has(route.vehicle)) return owners.size + 1;
       return shared[index][otherIndex] + (route.vehicle === other.vehicle ? sameName : 0);
-    }),
-  );
-  return bestAssignment(worth).flatMap((otherIndex, index) =>
-    otherIndex >= 0 && worth[index][otherIndex] > 0
-      ? [{
-          before: before[otherIndex].vehicle,
-          now: now[index].vehicle,
-          shared: shared[index][otherIndex],
-        }]
-      : [],
-  );
+    }));
+  return munkres(worth.map((row) => row.map((each) => -each)))
+    .filter(([index, otherIndex]) => worth[index][otherIndex] > 0)
+    .sort(([one], [other]) => one - other)
+    .map(([index, otherIndex]) => ({
+      before: before[otherIndex].vehicle, now: now[index].vehicle,
+      shared: shared[index][otherIndex],
+    }));
 }
 
 function pairing(formerRequest, request, departed) {
   const [before, now] = [formerRequest, request].map(
-    ({ fleet }) => new Set(fleet.map(({ id }) => id)),
-  );
+    ({ fleet }) => new Set(fleet.map(({ id }) => id)));
   return (other, route) => {
     if (departed.has(route.vehicle) || departed.has(other.vehicle)) {
       return route.vehicle === other.vehicle;
@@ -70,10 +65,7 @@ export function withFormerNames(former, entry) {
   const { request, plan } = entry;
   if (plan.replan) return plan;
   const wanted = new Set(request.customers.flatMap(({ vehicles, vehicle_costs: costs }) => [
-    ...(vehicles?.allowed ?? []),
-    ...(vehicles?.forbidden ?? []),
-    ...Object.keys(costs ?? {}),
-  ]));
+    ...(vehicles?.allowed ?? []), ...(vehicles?.forbidden ?? []), ...Object.keys(costs ?? {})]));
   const matched = new Map(matchVehicles(former, entry).map(({ before, now }) => [now, before]));
   const names = new Map();
   for (const { id, count } of request.fleet) {
@@ -133,8 +125,7 @@ export function numbersAfter(former, formerNumbers, entry) {
     routes.flatMap((name) => {
       const number = formerNumbers.get(matched.get(name));
       return number === undefined ? [] : [[name, number]];
-    }),
-  );
+    }));
   // Who stood in the former plan and has no part in this one keeps its number for the next.
   const taken = new Set([...given.values(), ...formerNumbers.values()]);
   let next = 0;

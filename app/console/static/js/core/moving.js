@@ -72,8 +72,7 @@ function changed(plan, names, routes, isLeftOut = false) {
     routes: routes.map(withoutMarks),
     unassigned: [
       ...others.map(({ reasons: _, ...other }) => other),
-      ...(isLeftOut ? names.map((id) => ({ id })) : []),
-    ],
+      ...(isLeftOut ? names.map((id) => ({ id })) : [])],
   };
 }
 
@@ -87,8 +86,7 @@ function serves(route, id) {
   return route.trips.some(
     ({ stops, sorties = [] }) =>
       stops.some((stop) => isOld(stop, id)) ||
-      sorties.some(({ customers }) => customers.some((visit) => visitName(visit) === id)),
-  );
+      sorties.some(({ customers }) => customers.some((visit) => visitName(visit) === id)));
 }
 
 function isOld(stop, id) {
@@ -114,10 +112,7 @@ function bare({ vehicle, type, trips }, change) {
         launch_stop: sortie.launch_stop,
         recovery_stop: sortie.recovery_stop,
         customers: sortie.customers.map(({ kind, id, part, alternative }) => ({
-          ...(kind && { kind }),
-          id,
-          ...(part && { part }),
-          ...(alternative && { alternative }),
+          ...(kind && { kind }), id, ...(part && { part }), ...(alternative && { alternative }),
         })),
       })),
     }, index)),

@@ -15,11 +15,8 @@ const LARGEST_WORD = 6;
 
 /** Sections of a problem by how a change of them is called. */
 const SECTIONS = {
-  'airspace.no_fly': 'areas',
-  'airspace.wind': 'wind',
-  'airspace.buffer': 'buffer',
-  depots: 'depots',
-  matrices: 'matrices',
+  'airspace.no_fly': 'areas', 'airspace.wind': 'wind', 'airspace.buffer': 'buffer',
+  depots: 'depots', matrices: 'matrices',
 };
 
 /**
@@ -69,8 +66,7 @@ function searchName({ options: before = {} }, { options: now = {} }) {
 /** Return what differs between two problems, in few words each. */
 function changedParts(before, now) {
   const changes = requestDifferences(fromNothing(before), fromNothing(now)).filter(
-    ({ path }) => !/^options\b|\.info\b/.test(path),
-  );
+    ({ path }) => !/^options\b|\.info\b/.test(path));
   const [ofCustomers, others] = parted(changes, ({ path }) => path.startsWith('customers['));
   const [ofFleet, rest] = parted(others, ({ path }) => path.startsWith('fleet['));
   return [
@@ -111,8 +107,7 @@ function dronesPart(changes, now) {
 function typePart(change, before, now) {
   const [, id, field] = /^fleet\[(.*?)\](?:\.(.*))?$/.exec(change.path);
   const [then, after] = [before, now].map(
-    ({ fleet }) => fleet.find((type) => type.id === id)?.count ?? 0,
-  );
+    ({ fleet }) => fleet.find((type) => type.id === id)?.count ?? 0);
   if (field !== undefined && field !== 'count') return fieldChange(change);
   const size = Math.abs(after - then);
   const amount = t('name.amount', {
@@ -132,8 +127,7 @@ function customerParts(changes, before, now) {
     ...many(added, (id) => t('name.added', { id }), (count) => t('name.addedMany', { count })),
     ...many(gone, (id) => t('name.without', { id }), (count) => t('name.withoutMany', { count })),
     ...windowParts(ofWindows, before, now),
-    ...fieldParts(others),
-  ];
+    ...fieldParts(others)];
 }
 
 function many(ids, one, several) {
@@ -171,8 +165,7 @@ function fieldParts(changes) {
   return [...byField].map(([field, group]) =>
     group.length === 1
       ? fieldChange(group[0])
-      : t('name.fieldOf', { count: group.length, field: withinSentence(labelOf(field)) }),
-  );
+      : t('name.fieldOf', { count: group.length, field: withinSentence(labelOf(field)) }));
 }
 
 /** Return how many vehicles a fleet has. */

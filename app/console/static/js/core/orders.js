@@ -30,8 +30,7 @@ export function placeIn(request, text) {
   }
   const name = trimmed.toLowerCase();
   return placeOf([...request.customers, ...request.depots].find(
-    ({ id }) => name !== '' && id.toLowerCase() === name,
-  ));
+    ({ id }) => name !== '' && id.toLowerCase() === name));
 }
 
 /** Return a place as `placeIn` reads it. */
@@ -50,8 +49,7 @@ export function orderOf(request, typed, location) {
   const stated = typed.amount.trim();
   const amounts = stated === '' ? [1] : stated.split(/\s*;\s*|,?\s+/).map(parseNumber);
   const [opens, closes] = [typed.opens, typed.closes].map((text) =>
-    text.trim() === '' ? null : parseClock(text),
-  );
+    text.trim() === '' ? null : parseClock(text));
   const id = typed.name.trim() || freeName(request.customers, 'order');
   const wrong = [
     [!location, 'place'],

@@ -7,29 +7,11 @@
  */
 
 const ON_LIGHT = [
-  '#0072b2',
-  '#c24f00',
-  '#00805e',
-  '#b0508a',
-  '#8a6a00',
-  '#7b3fb5',
-  '#882255',
-  '#6b6b1a',
-  '#44358f',
-  '#1f7a6f',
-];
+  '#0072b2', '#c24f00', '#00805e', '#b0508a', '#8a6a00', '#7b3fb5', '#882255', '#6b6b1a', '#44358f',
+  '#1f7a6f'];
 const ON_DARK = [
-  '#56b4e9',
-  '#ff8a3d',
-  '#35c99b',
-  '#e79bc6',
-  '#e6b422',
-  '#b98cff',
-  '#e0719f',
-  '#c2c24a',
-  '#9fb4ff',
-  '#5fd3c4',
-];
+  '#56b4e9', '#ff8a3d', '#35c99b', '#e79bc6', '#e6b422', '#b98cff', '#e0719f', '#c2c24a', '#9fb4ff',
+  '#5fd3c4'];
 const TRIP_DASHES = [null, '9 5', '2 5', '14 4 2 4'];
 
 /** Return the colour of a vehicle, counted from 0. */
@@ -46,16 +28,10 @@ export function tripDash(trip) {
 /** Return the colour of a share from 0 to 1 on a scale from low (light) to high (dark blue). */
 export function heatColour(share) {
   const stops = [
-    [254, 249, 217],
-    [199, 228, 195],
-    [111, 188, 190],
-    [44, 127, 184],
-    [30, 60, 120],
-  ];
+    [254, 249, 217], [199, 228, 195], [111, 188, 190], [44, 127, 184], [30, 60, 120]];
   const place = Math.min(Math.max(share, 0), 1) * (stops.length - 1);
   const low = Math.min(Math.floor(place), stops.length - 2);
   const mixed = stops[low].map((value, channel) =>
-    Math.round(value + (stops[low + 1][channel] - value) * (place - low)),
-  );
+    Math.round(value + (stops[low + 1][channel] - value) * (place - low)));
   return { background: `rgb(${mixed.join(',')})`, text: share > 0.55 ? '#ffffff' : '#14202b' };
 }

@@ -4,8 +4,7 @@
 export function getIn(value, keys) {
   return keys.reduce(
     (part, key) => (part === null || part === undefined ? undefined : part[key]),
-    value,
-  );
+    value);
 }
 
 /** Return `value` with another value at a place; objects on the way are copied or made. */
@@ -27,8 +26,7 @@ export function removeIn(value, keys) {
     return setIn(
       value,
       keys.slice(0, -1),
-      holder.filter((_, index) => index !== last),
-    );
+      holder.filter((_, index) => index !== last));
   }
   const { [last]: removed, ...rest } = holder;
   return setIn(value, keys.slice(0, -1), rest);

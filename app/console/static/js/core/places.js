@@ -31,22 +31,18 @@ export function soughtIn(request) {
     if (location?.address) found.push({ key, keys, address: location.address });
   };
   request?.depots.forEach(({ id, location }, at) =>
-    add(location, `depot ${id}`, ['depots', at, 'location']),
-  );
+    add(location, `depot ${id}`, ['depots', at, 'location']));
   request?.launch_sites?.forEach(({ id, location }, at) =>
-    add(location, `launch_site ${id}`, ['launch_sites', at, 'location']),
-  );
+    add(location, `launch_site ${id}`, ['launch_sites', at, 'location']));
   request?.customers.forEach(({ id, location, alternatives }, at) => {
     add(location, `c:${id}`, ['customers', at, 'location']);
     alternatives?.forEach((place, nth) =>
       add(place.location, `c:${id}/${place.id}`,
-        ['customers', at, 'alternatives', nth, 'location']),
-    );
+        ['customers', at, 'alternatives', nth, 'location']));
   });
   request?.shipments?.forEach((shipment, at) =>
     endsOf(shipment).forEach(({ name, keys, end }) =>
-      add(end?.location, `c:${name}`, ['shipments', at, ...keys, 'location'])),
-  );
+      add(end?.location, `c:${name}`, ['shipments', at, ...keys, 'location'])));
   request?.fleet.forEach(({ id, start_location: start, end }, at) => {
     add(start, `start ${id}`, ['fleet', at, 'start_location']);
     add(end?.location, `end ${id}`, ['fleet', at, 'end', 'location']);
@@ -78,15 +74,13 @@ export function withFound(request, replies) {
 /** Return doubts about customers of an imported sheet whose addresses were looked up. */
 export function doubtsOfImport({ request, looked_up: lookedUp }) {
   const doubted = new Map(
-    (lookedUp?.places ?? []).filter(({ doubt }) => doubt).map((place) => [place.address, place]),
-  );
+    (lookedUp?.places ?? []).filter(({ doubt }) => doubt).map((place) => [place.address, place]));
   return Object.fromEntries(
     (request?.customers ?? []).flatMap(({ id, location, info }) => {
       const place = doubted.get(info?.address);
       if (!place || !isSame(place.location, location)) return [];
       return [[`c:${id}`, { address: place.address, doubt: place.doubt, location }]];
-    }),
-  );
+    }));
 }
 
 /**

@@ -6,7 +6,6 @@
  * that leads to a stop; vehicles count in the fleet's order.
  */
 
-import { linesByAir } from './flights.js';
 import { decodeLine } from './polyline.js';
 import { placeOf } from './places.js';
 import { standsOf } from './stands.js';
@@ -28,13 +27,11 @@ export function indexPlan(request, plan, given = null) {
   const depots = new Map(request.depots.map((depot) => [`depot ${depot.id}`, depot]));
   standsOf(request).forEach((stand) => depots.set(`${stand.kind} ${stand.id}`, stand));
   const types = new Map(request.fleet.map((type) => [type.id, type]));
-  const air = linesByAir(request);
-  const index = { request, plan, customers, depots, types, air, vehicles: [], halts: new Map() };
+  const index = { request, plan, customers, depots, types, vehicles: [], halts: new Map() };
   // Replies put vehicles under way first; here each keeps its row, number and colour.
   const numbers = given ?? numbersOf(request, plan);
   index.vehicles = inOrder(request.fleet, plan, given).map((route, position) =>
-    indexRoute(index, route, position, numbers.get(route.vehicle)),
-  );
+    indexRoute(index, route, position, numbers.get(route.vehicle)));
   return index;
 }
 
@@ -43,8 +40,7 @@ function inOrder(fleet, { routes }, given = null) {
   const types = new Map(fleet.map(({ id }, position) => [id, position]));
   const place = ({ type, vehicle }) => [
     types.get(type) ?? fleet.length,
-    given ? given.get(vehicle) : Number(vehicle.slice(type.length + 1)),
-  ];
+    given ? given.get(vehicle) : Number(vehicle.slice(type.length + 1))];
   return [...routes].sort((first, second) => {
     const [[type, number], [otherType, otherNumber]] = [place(first), place(second)];
     return type - otherType || number - otherNumber;
@@ -105,10 +101,7 @@ function indexTrip(index, vehicle, reply, number) {
         index.depots.get(`depot ${stop.id}`) ??
         index.customers.get(stop.id));
     return remember(index, {
-      ...haltOf(key, stop, trip, source),
-      stop: position,
-      sortie: null,
-      waiting: stop.waiting,
+      ...haltOf(key, stop, trip, source), stop: position, sortie: null, waiting: stop.waiting,
       load: stop.load,
     });
   });
@@ -117,18 +110,13 @@ function indexTrip(index, vehicle, reply, number) {
     // A break is drawn where the stop before it is.
     if (kind === 'break') halt.location = trip.stops[position - 1].location;
     const places = [trip.stops[position - 1]?.location, halt.location];
-    halt.line = lineOf(geometry, places) ?? straightOrFlown(index, vehicle, places);
+    halt.line = lineOf(geometry, places) ?? places.filter(Boolean);
   });
   trip.sorties = reply.sorties.map((sortie, position) => {
     const key = `s:${place}/${position}`;
     const entry = {
-      key,
-      trip,
-      reply: sortie,
-      drone: sortie.drone,
-      from: trip.stops[sortie.launch_stop],
-      to: trip.stops[sortie.recovery_stop],
-      visits: [],
+      key, trip, reply: sortie, drone: sortie.drone, from: trip.stops[sortie.launch_stop],
+      to: trip.stops[sortie.recovery_stop], visits: [],
     };
     entry.visits = sortie.customers.map((visit) => {
       const source = placedAt(index.customers.get(visit.id), visit.alternative);
@@ -147,12 +135,6 @@ function indexTrip(index, vehicle, reply, number) {
     return entry;
   });
   return trip;
-}
-
-/** Return the line of a leg of which nothing is told. */
-function straightOrFlown({ air }, { flies, type }, places) {
-  const known = places.filter(Boolean);
-  return flies && known.length > 1 ? air(type, ...known) : known;
 }
 
 /**
@@ -222,8 +204,7 @@ export function spanOf(index) {
   const trips = index.vehicles.flatMap((vehicle) => vehicle.trips);
   const starts = trips.flatMap((trip) => [
     trip.stops[0].arrival,
-    ...trip.sorties.map((sortie) => sortie.reply.launch_time),
-  ]);
+    ...trip.sorties.map((sortie) => sortie.reply.launch_time)]);
   const ends = trips.map((trip) => trip.stops[trip.stops.length - 1].departure);
   if (!trips.length) return [0, 3600];
   const [start, end] = [Math.min(...starts), Math.max(...ends)];
@@ -258,8 +239,7 @@ export function keysWithin(index, key) {
   return (trips ?? []).flatMap((each) => [
     each.key,
     ...each.stops.filter(isVisit).map((halt) => halt.key),
-    ...each.sorties.flatMap((sortie) => [sortie.key, ...sortie.visits.map((visit) => visit.key)]),
-  ]);
+    ...each.sorties.flatMap((sortie) => [sortie.key, ...sortie.visits.map((visit) => visit.key)])]);
 }
 
 /** Tell whether what one key names is or contains what another names. */

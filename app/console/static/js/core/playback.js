@@ -1,20 +1,18 @@
 /** Where trucks and drones are at an instant. */
 
+import { flownLegs } from './flights.js';
 import { pointAlong } from './geometry.js';
 
 /**
  * Return a function that gives everything's place at an instant.
  *
  * @param index of a plan
- * @param legsOf the lines of a sortie's legs, of `flownLines`
  */
-export function playback(index, legsOf) {
+export function playback(index) {
   const trucks = index.vehicles.map((vehicle) => ({ vehicle, spans: vehicleSpans(vehicle) }));
   const drones = index.vehicles.flatMap((vehicle) =>
     vehicle.trips.flatMap((trip) =>
-      trip.sorties.map((sortie) => ({ sortie, spans: flightSpans(sortie, legsOf(sortie)) })),
-    ),
-  );
+      trip.sorties.map((sortie) => ({ sortie, spans: flightSpans(sortie, flownLegs(sortie)) }))));
   return (time) => ({
     trucks: trucks.flatMap(({ vehicle, spans }) => at(spans, time, { vehicle })),
     drones: drones.flatMap(({ sortie, spans }) => at(spans, time, { sortie })),
@@ -34,10 +32,7 @@ function vehicleSpans(vehicle) {
   return stops.flatMap((halt, position) => {
     const before = stops[position - 1];
     const standing = {
-      from: halt.arrival,
-      until: halt.departure,
-      doing: 'stands',
-      line: [halt.location],
+      from: halt.arrival, until: halt.departure, doing: 'stands', line: [halt.location],
     };
     if (!before) return [standing];
     const doing =
@@ -61,15 +56,11 @@ function flightSpans(sortie, legs) {
   sortie.visits.forEach((halt, position) => {
     spans.push(
       { from: since, until: halt.arrival, doing: 'flies', line: legs[position] },
-      { from: halt.arrival, until: halt.departure, doing: 'serves', line: [halt.location] },
-    );
+      { from: halt.arrival, until: halt.departure, doing: 'serves', line: [halt.location] });
     since = halt.departure;
   });
   spans.push({
-    from: since,
-    until: sortie.reply.recovery_time,
-    doing: 'flies',
-    line: legs[legs.length - 1],
+    from: since, until: sortie.reply.recovery_time, doing: 'flies', line: legs[legs.length - 1],
   });
   return spans;
 }

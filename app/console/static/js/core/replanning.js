@@ -56,8 +56,7 @@ export function fromNothing(request) {
 export function customersOf(route) {
   return route.trips.flatMap(({ stops, sorties = [] }) => [
     ...stops.filter(({ kind }) => kind === 'customer').map(({ id }) => id),
-    ...sorties.flatMap(({ customers }) => customers.map(({ id }) => id)),
-  ]);
+    ...sorties.flatMap(({ customers }) => customers.map(({ id }) => id))]);
 }
 
 /** Pin customers to their vehicles, or let go of them. */
@@ -111,8 +110,7 @@ export function progressOf(route, type, { freeze_before: now, unavailable = [] }
     const left = standing < 0 ? stops.length : standing;
     const launching = launchDurations(type, sorties);
     const flights = sorties.flatMap(({ launch_time: launch }, flight) =>
-      launch - launching[flight] <= now ? [flight] : [],
-    );
+      launch - launching[flight] <= now ? [flight] : []);
     if (!left && !flights.length) return;
     const meetings = flights.map((flight) => sorties[flight].recovery_stop);
     const stop = Math.max(Math.min(left, stops.length - 1), ...meetings);
@@ -127,8 +125,7 @@ function brokenOff(route, progress, now) {
   const { stops, sorties = [] } = route.trips[progress.trip];
   const served = stops.filter((stop) => stop.service_start <= now).length;
   const flights = progress.flights.filter((flight) =>
-    sorties[flight].customers.some((visit) => visit.service_start <= now),
-  );
+    sorties[flight].customers.some((visit) => visit.service_start <= now));
   return { ...progress, stop: served - 1, flights };
 }
 
@@ -206,9 +203,7 @@ export function openCustomers(route, progress) {
   return route.trips.flatMap(({ stops, sorties = [] }, trip) => {
     const isOpen = (place) =>
       standingOf(new Map([[route.vehicle, progress]]), {
-        vehicle: route.vehicle,
-        trip,
-        ...place,
+        vehicle: route.vehicle, trip, ...place,
       }) !== 'settled';
     return [
       ...stops.filter(({ kind }, stop) => kind === 'customer' && isOpen({ stop })),

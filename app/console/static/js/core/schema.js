@@ -11,8 +11,7 @@ const UNITS = [
   [/\bdegrees\b/i, '\u00b0'],
   [/\bmetres per\b/i, 'm'],
   [/\bin metres\b/i, 'm'],
-  [/\bseconds?\b/i, 's'],
-];
+  [/\bseconds?\b/i, 's']];
 
 /** Longest text that an empty field can show. */
 const LONGEST_HINT = 18;
@@ -118,8 +117,7 @@ export function helpOf(owner, name, schema) {
 
 /** Schemas whose fields mean what those of the same name in another do. */
 const LIKE = {
-  ShipmentPickupInput: 'ShipmentEndInput',
-  ShipmentEndInput: 'CustomerInput',
+  ShipmentPickupInput: 'ShipmentEndInput', ShipmentEndInput: 'CustomerInput',
   ShipmentInput: 'CustomerInput',
 };
 
@@ -140,8 +138,7 @@ export function blank(schemas, schema) {
   const found = resolve(schemas, schema).schema;
   const required = found.required ?? [];
   return Object.fromEntries(
-    required.map((name) => [name, blankValue(schemas, found.properties[name])]),
-  );
+    required.map((name) => [name, blankValue(schemas, found.properties[name])]));
 }
 
 function blankValue(schemas, schema) {

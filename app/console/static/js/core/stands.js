@@ -10,7 +10,6 @@ export function standsOf(request) {
     .map(({ id, location, time_window }) => ({ kind: 'launch_site', id, location, time_window }));
   const stands = (request.fleet ?? []).flatMap(({ id, start_location: start, end }) => [
     ...(Array.isArray(start) ? [{ kind: 'start', id, location: start }] : []),
-    ...(Array.isArray(end?.location) ? [{ kind: 'end', id, location: end.location }] : []),
-  ]);
+    ...(Array.isArray(end?.location) ? [{ kind: 'end', id, location: end.location }] : [])]);
   return [...stands, ...sites];
 }

@@ -16,14 +16,10 @@ export const ACTIVITIES = ['drive', 'fly', 'serve', 'wait', 'handle', 'reload', 
 export function timelineRows(index) {
   return index.vehicles.flatMap((vehicle) => [
     {
-      key: vehicle.key,
-      kind: 'vehicle',
-      label: titleOfVehicle(vehicle),
-      vehicle,
+      key: vehicle.key, kind: 'vehicle', label: titleOfVehicle(vehicle), vehicle,
       bars: vehicleBars(vehicle),
     },
-    ...droneRows(vehicle),
-  ]);
+    ...droneRows(vehicle)]);
 }
 
 /** So many idle vehicles have a row at most. */
@@ -41,17 +37,30 @@ export function idleRows({ request, vehicles }) {
 }
 
 /**
- * Return when the vehicle of a row doesn't work, or its depot is closed: `[from, until]` each.
+ * Return when a row's vehicle doesn't work, or all its depots are closed: `[from, until]` each.
  *
  * @param range what is seen
  */
-export function closedOf({ type, vehicle }, { depots }, [first, last]) {
+export function closedOf({ type, vehicle }, { depots }, range) {
   const kind = type ?? vehicle.type;
-  const home = depots.find(({ id }) => id === kind?.depot) ?? depots[0];
-  const closed = [kind?.shift, home?.time_window].flatMap((open) => [
-    [first, Math.min(open?.earliest ?? first, last)],
-    [Math.max(open?.latest ?? last, first), last]]);
-  return closed.filter(([from, until]) => until > from);
+  const used = new Set([kind?.depot ?? depots[0].id, ...(kind?.reload_depots ?? [])]);
+  const hours = depots.filter(({ id }) => used.has(id)).map((depot) => depot.time_window);
+  return [...between([kind?.shift], range), ...between(hours, range)];
+}
+
+/** Return what lies outside all of some windows, within a range; one that isn't stated is all. */
+function between(windows, [first, last]) {
+  const within = (time) => Math.min(Math.max(time, first), last);
+  const open = windows.map((stated) =>
+    [within(stated?.earliest ?? first), within(stated?.latest ?? last)]);
+  open.sort(([from], [other]) => from - other);
+  const closed = [];
+  let since = first;
+  for (const [from, until] of [...open, [last, last]]) {
+    if (from > since) closed.push([since, from]);
+    since = Math.max(since, until);
+  }
+  return closed;
 }
 
 function vehicleBars(vehicle) {
@@ -69,11 +78,8 @@ function vehicleBars(vehicle) {
       const before = trip.stops[position - 1];
       if (before) {
         bars.push({
-          kind: vehicle.flies ? 'fly' : 'drive',
-          from: before.departure,
-          until: halt.arrival,
-          key: trip.key,
-          to: halt.key,
+          kind: vehicle.flies ? 'fly' : 'drive', from: before.departure, until: halt.arrival,
+          key: trip.key, to: halt.key,
         });
       }
       bars.push(...stopBars(halt, vehicle.type?.id));
@@ -102,15 +108,13 @@ function stopBars(halt, type) {
   if (halt.kind === 'break') {
     return [
       { kind: 'wait', from: halt.arrival, until: halt.serviceStart, key: halt.key },
-      { kind: 'rest', from: halt.serviceStart, until: halt.departure, key: halt.key },
-    ];
+      { kind: 'rest', from: halt.serviceStart, until: halt.departure, key: halt.key }];
   }
   return [
     ...setupBars(halt),
     { kind: 'wait', from: halt.arrival + halt.setup, until: halt.serviceStart, key: halt.key },
     { kind: 'serve', from: halt.serviceStart, until: served, key: halt.key },
-    { kind: 'handle', from: served, until: halt.departure, key: halt.key },
-  ];
+    { kind: 'handle', from: served, until: halt.departure, key: halt.key }];
 }
 
 function droneRows(vehicle) {
@@ -127,8 +131,7 @@ function droneRows(vehicle) {
     rows.get(sortie.drone).bars.push(...sortieBars(vehicle, sortie, launching));
   }
   return [...rows.values()].sort((first, second) =>
-    first.key.localeCompare(second.key, 'en', { numeric: true }),
-  );
+    first.key.localeCompare(second.key, 'en', { numeric: true }));
 }
 
 function sortieBars(vehicle, sortie, launching) {
@@ -137,26 +140,20 @@ function sortieBars(vehicle, sortie, launching) {
   const landing = Math.max(recovered - (drones.recovery_duration ?? 0), launch);
   const bars = [
     {
-      kind: 'handle',
-      from: launch - launching,
-      until: launch,
-      key: sortie.key,
-    },
-  ];
+      kind: 'handle', from: launch - launching, until: launch, key: sortie.key,
+    }];
   let since = launch;
   for (const halt of sortie.visits) {
     bars.push(
       { kind: 'fly', from: since, until: halt.arrival, key: sortie.key },
       ...setupBars(halt),
       { kind: 'wait', from: halt.arrival + halt.setup, until: halt.serviceStart, key: halt.key },
-      { kind: 'serve', from: halt.serviceStart, until: halt.departure, key: halt.key },
-    );
+      { kind: 'serve', from: halt.serviceStart, until: halt.departure, key: halt.key });
     since = halt.departure;
   }
   bars.push(
     { kind: 'fly', from: since, until: landing, key: sortie.key },
-    { kind: 'handle', from: landing, until: recovered, key: sortie.key },
-  );
+    { kind: 'handle', from: landing, until: recovered, key: sortie.key });
   return bars.filter(isSeen);
 }
 
@@ -173,11 +170,8 @@ export function rowWindows(row) {
   return halts
     .filter((halt) => halt.window && (halt.window.earliest > 0 || halt.window.latest != null))
     .map((halt) => ({
-      key: halt.key,
-      earliest: halt.window.earliest ?? 0,
-      latest: halt.window.latest ?? null,
-      arrival: halt.arrival,
-      late: halt.lateness > 0,
+      key: halt.key, earliest: halt.window.earliest ?? 0, latest: halt.window.latest ?? null,
+      arrival: halt.arrival, late: halt.lateness > 0,
     }));
 }
 

@@ -6,10 +6,7 @@ import { getIn } from './paths.js';
 import { resolve } from './schema.js';
 
 const KINDS = {
-  Instant: 'instant',
-  InstantOrLength: 'instant',
-  Opening: 'opening',
-  OpeningOrLength: 'opening',
+  Instant: 'instant', InstantOrLength: 'instant', Opening: 'opening', OpeningOrLength: 'opening',
   Duration: 'duration',
 };
 
@@ -156,15 +153,13 @@ export function readDuration(text) {
   if (iso) {
     return [604800, 86400, 3600, 60, 1].reduce(
       (sum, size, index) => sum + size * Number(iso[index + 1] ?? 0),
-      0,
-    );
+      0);
   }
   const parts = [...trimmed.matchAll(/(\d+(?:[.,]\d+)?)\s*(h|min|s)\b\s*/g)];
   if (parts.length && parts.map(([part]) => part).join('') === trimmed) {
     return parts.reduce(
       (sum, [, amount, unit]) => sum + UNITS[unit] * Number(amount.replace(',', '.')),
-      0,
-    );
+      0);
   }
   return parseHours(trimmed);
 }
@@ -175,8 +170,7 @@ export function durationText(seconds) {
   const parts = [
     [Math.floor(whole / 3600), 'h'],
     [Math.floor(whole / 60) % 60, 'min'],
-    [Number(((whole % 60) + seconds - whole).toFixed(3)), 's'],
-  ];
+    [Number(((whole % 60) + seconds - whole).toFixed(3)), 's']];
   const shown = parts.filter(([amount]) => amount).map((part) => part.join(' '));
   return shown.join(' ') || '0 min';
 }

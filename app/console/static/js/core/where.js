@@ -8,10 +8,7 @@ const BETWEEN = ' \u203a ';
 
 /** Lists whose entries are called by their own names. */
 const NAMED = {
-  customers: 'customer',
-  fleet: 'type',
-  depots: 'depot',
-  launch_sites: 'launchSite',
+  customers: 'customer', fleet: 'type', depots: 'depot', launch_sites: 'launchSite',
   shipments: 'shipment',
 };
 

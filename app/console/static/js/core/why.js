@@ -15,43 +15,20 @@ export const FIRST_SHOWN = 6;
 
 /** What is called more of when there is a unit more of it; all else is `more`. */
 const MORE = {
-  'time_window.latest': 'later',
-  'time_window.earliest': 'earlier',
-  release_time: 'earlier',
-  max_time_aboard: 'longer',
-  'shift.latest': 'later',
-  'breaks.start.latest': 'later',
-  max_time_between: 'longer',
-  'fairness.min_vehicles': 'fewer',
+  'time_window.latest': 'later', 'time_window.earliest': 'earlier', release_time: 'earlier',
+  max_time_aboard: 'longer', 'shift.latest': 'later', 'breaks.start.latest': 'later',
+  max_time_between: 'longer', 'fairness.min_vehicles': 'fewer',
 };
 
 /** Rules that are a customer's: what they are called says so. */
 const ITS_OWN = [
-  'time_window.latest',
-  'time_window.earliest',
-  'release_time',
-  'max_time_aboard',
-  'max_time_between',
-  'vehicles',
-  'served_by',
-  'skills',
-  'goods',
-  'relations',
-];
+  'time_window.latest', 'time_window.earliest', 'release_time', 'max_time_aboard',
+  'max_time_between', 'vehicles', 'served_by', 'skills', 'goods', 'relations'];
 
 /** Rules by which drones alone are held. */
 const OF_DRONES = new Set([
-  'AIRSPACE',
-  'PAYLOAD',
-  'ENDURANCE',
-  'ENERGY',
-  'BATTERIES',
-  'CHARGERS',
-  'WIND',
-  'MAX_RANGE',
-  'LAUNCH',
-  'SERVED_BY',
-]);
+  'AIRSPACE', 'PAYLOAD', 'ENDURANCE', 'ENERGY', 'BATTERIES', 'CHARGERS', 'WIND', 'MAX_RANGE',
+  'LAUNCH', 'SERVED_BY']);
 
 /**
  * Return the rows of a table: `{key, what, where, cost, terms, feasible, reasons}`.

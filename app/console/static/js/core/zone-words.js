@@ -43,8 +43,7 @@ export function zoneInWords(zone) {
   const closed = (zone.times ?? []).map(({ begin, end }) =>
     end === null
       ? t('zone.closedFrom', { begin: clock(begin) })
-      : t('zone.closed', { begin: clock(begin), end: clock(end) }),
-  );
+      : t('zone.closed', { begin: clock(begin), end: clock(end) }));
   return [told, whose, ...closed].filter(Boolean).join(' ');
 }
 

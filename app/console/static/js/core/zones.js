@@ -178,8 +178,7 @@ function kmlAreas(text) {
       restriction: 'PROHIBITED',
       authority: '',
       rings: [...polygon.matchAll(/<coordinates>([\s\S]*?)<\/coordinates>/g)].map(([, corners]) =>
-        corners.trim().split(/\s+/).map((corner) => corner.split(',').slice(0, 2).map(Number)),
-      ),
+        corners.trim().split(/\s+/).map((corner) => corner.split(',').slice(0, 2).map(Number))),
       ...limitsOf({}),
     }));
   });

@@ -13,8 +13,7 @@ export async function read(id) {
   const found = await transact('readonly', (records, give) => {
     whenRead(records.get(['plan', id]), (summary) => {
       whenRead(records.get(['content', id]), (content) =>
-        give(summary && content ? { ...summary, ...content } : null),
-      );
+        give(summary && content ? { ...summary, ...content } : null));
     });
   });
   if (!found) throw gone();

@@ -38,8 +38,7 @@ export async function transact(mode, work) {
           work(records, (value) => {
             result = value;
           });
-        }),
-    );
+        }));
   } catch (error) {
     throw new StorageError(error);
   }

@@ -3,6 +3,7 @@
 import { openRequest, openTab, showFailure } from '../actions.js';
 import * as api from '../api.js';
 import { isUnsaved, planToSave } from '../core/drafts.js';
+import { judgedPlan } from '../core/moving.js';
 import { plan, resume } from '../planning.js';
 import { resumeScenario } from '../scenarios.js';
 import { store } from '../store.js';
@@ -54,8 +55,7 @@ async function refresh() {
   const [inBrowser, onService, drafts] = listed.map((each) =>
     (each.status === 'fulfilled' && each.value) || []);
   const plans = [...inBrowser, ...onService].sort(
-    (one, other) => Date.parse(other.changed_at) - Date.parse(one.changed_at),
-  );
+    (one, other) => Date.parse(other.changed_at) - Date.parse(one.changed_at));
   change({ plans, drafts, failure: failed?.reason ?? null });
 }
 
@@ -76,8 +76,20 @@ export async function openKept({ where, id }) {
   const kept = await attempt(() => PLACES[where].read(id));
   if (!kept) return;
   closeKeeping();
-  show(kept, { home: { where, id, version: kept.version } });
+  show(await withLines(kept), { home: { where, id, version: kept.version } });
   if (!kept.plan) await plan();
+}
+
+/** Return a kept plan with the ways around closed air, which who kept it may have left out. */
+async function withLines(kept) {
+  const { request, plan: told } = kept;
+  const isKnown = told?.routes[0]?.trips[0].stops[1]?.geometry !== undefined;
+  if (!told || isKnown || !(request.airspace?.no_fly?.length || request.airspace?.zones?.length)) {
+    return kept;
+  }
+  const asked = { problem: api.withWays(request), plan: told };
+  const verdict = await attempt(() => api.postCheck(asked));
+  return verdict ? { ...kept, plan: judgedPlan(told, told, verdict) } : kept;
 }
 
 /** Show a problem, and its plan if it has one. */
@@ -255,8 +267,7 @@ export function tokenInAddress() {
 
 /** Show the plan of a link; it is looked at, and not this browser's. */
 export async function viewShared(token) {
-  const shared = await api.getSharedPlan(token);
-  show(shared, { viewing: token });
+  show(await withLines(await api.getSharedPlan(token)), { viewing: token });
   const first = store.get().request;
   const unsubscribe = store.subscribe(({ request, viewing }) => {
     if (viewing !== token) unsubscribe();

@@ -78,8 +78,7 @@ function overOn(map) {
       && bottom > frame.top && top < frame.bottom)
     .map(({ left, top, right, bottom }) => L.bounds(
       [left - frame.left - CLEAR, top - frame.top - CLEAR],
-      [right - frame.left + CLEAR, bottom - frame.top + CLEAR],
-    ));
+      [right - frame.left + CLEAR, bottom - frame.top + CLEAR]));
 }
 
 /**
@@ -98,8 +97,7 @@ function paddingsFor(map) {
     paddings = paddings.flatMap((padding) => [
       padding,
       ...near.map((side) =>
-        padding.map((edge, index) => (index === side ? Math.max(edge, sides[side]) : edge))),
-    ]);
+        padding.map((edge, index) => (index === side ? Math.max(edge, sides[side]) : edge)))]);
     paddings = [...new Map(paddings.map((padding) => [String(padding), padding])).values()];
   }
   return /** @type {Bounds[]} */ (paddings);

@@ -20,8 +20,7 @@ export function groundsOf(config, asksServer, keptClear) {
   const attribution = asText(config.streets_attribution);
   const layers = [
     ...(config.ground ? [new StreetsLayer(config.ground, OF_GROUND)] : []),
-    ...config.streets.map((extract) => new StreetsLayer(extract, { attribution })),
-  ];
+    ...config.streets.map((extract) => new StreetsLayer(extract, { attribution }))];
   return layers.flatMap((layer) => [layer, new StreetNames(layer, keptClear)]);
 }
 

@@ -1,6 +1,6 @@
 /** Leaflet layers of a problem and its plan. */
 
-import { flownLines } from '../core/flights.js';
+import { flownLegs } from '../core/flights.js';
 import { nearestLine } from '../core/geometry.js';
 import { tripDash, vehicleColour } from '../core/palette.js';
 import { isByAir, partsOf } from '../core/plan.js';
@@ -47,7 +47,6 @@ function redOf(dark) {
  * @param parts what is settled, of `settledParts`
  */
 export function planLines(index, parts, dark) {
-  const legsOf = flownLines(index.request);
   const lines = [];
   const Kind = index.plan.summary.trips > MOST_LABELS ? L.Polyline : Way;
   for (const vehicle of index.vehicles) {
@@ -58,7 +57,7 @@ export function planLines(index, parts, dark) {
         lines.push(line(trip.key, places, styles[standing], Kind));
       }
       for (const sortie of trip.sorties) {
-        const legs = legsOf(sortie).map((leg) => leg.map(latLng));
+        const legs = flownLegs(sortie).map((leg) => leg.map(latLng));
         const style = { ...styles[standingIn(parts, sortie)], ...FLIGHT };
         if (standingIn(parts, sortie) === 'settled') style.opacity = SETTLED.opacity;
         if (legs.length) lines.push(line(sortie.key, legs, style));
@@ -173,8 +172,7 @@ export function placeMarks(places) {
         keyboard: false,
         zIndexOffset: 500,
         icon: labelIcon(depot.kind === 'launch_site' ? 'site-mark' : 'depot-mark', depot.id),
-      }),
-    );
+      }));
 }
 
 /** Return an icon that holds text. */
@@ -214,14 +212,9 @@ export function bufferShapes(request, dark) {
       rings
         ? band(rings)
         : L.circle(latLng(center), {
-          radius: radius + buffer,
-          stroke: false,
-          fillColor: color,
-          fillOpacity: 0.15,
+          radius: radius + buffer, stroke: false, fillColor: color, fillOpacity: 0.15,
           interactive: false,
-        }),
-    ),
-  ];
+        }))];
 }
 
 /** Return the no-fly areas' shapes, in the order of the request. */
@@ -229,14 +222,9 @@ export function noFlyShapes(request, dark) {
   const colour = dark ? '#ff9d94' : '#a8321f';
   return (request.airspace?.no_fly ?? []).map((ring) =>
     L.polygon(ring.map(latLng), {
-      color: colour,
-      weight: 1.5,
-      dashArray: '6 3',
-      fillColor: colour,
-      fillOpacity: 0.12,
+      color: colour, weight: 1.5, dashArray: '6 3', fillColor: colour, fillOpacity: 0.12,
       interactive: false,
-    }),
-  );
+    }));
 }
 
 /** Return the published zones' shapes, which tell their names, heights and authorities. */
@@ -245,10 +233,7 @@ export function zoneShapes(request, dark) {
   return zoneAreas(request).map((area) => {
     const { rings, center, radius } = area;
     const style = {
-      color: colour,
-      weight: 1,
-      fillColor: colour,
-      fillOpacity: 0.08,
+      color: colour, weight: 1, fillColor: colour, fillOpacity: 0.08,
     };
     const shape = rings
       ? L.polygon(rings.map((ring) => ring.map(latLng)), style)
@@ -274,14 +259,9 @@ export function tripLabels(index, dark) {
       });
       return [
         L.marker(latLng(middle.location), {
-          icon,
-          interactive: false,
-          keyboard: false,
-          zIndexOffset: 200,
-        }),
-      ];
-    }),
-  );
+          icon, interactive: false, keyboard: false, zIndexOffset: 200,
+        })];
+    }));
 }
 
 /** Return the numbers of a trip's stops. */
@@ -294,22 +274,16 @@ export function stopNumbers(trip) {
             keyboard: false,
             zIndexOffset: 300,
             icon: labelIcon('stop-mark', String(number)),
-          }),
-        ]
-      : [],
-  );
+          })]
+      : []);
 }
 
 /** Return marks beside places: `{location, className, text}`. */
 export function notes(marked) {
   return marked.filter(placeOf).map(({ location, className, text }) =>
     L.marker(latLng(location), {
-      interactive: false,
-      keyboard: false,
-      zIndexOffset: 450,
-      icon: labelIcon(className, text),
-    }),
-  );
+      interactive: false, keyboard: false, zIndexOffset: 450, icon: labelIcon(className, text),
+    }));
 }
 
 /** Return what is noted beside customers: that they are pinned or doubtful, and a day's news. */
@@ -322,7 +296,6 @@ export function notedIn(request, index, doubts, news) {
     return [
       ...(pinned.has(id) ? [{ location, className: 'pin-mark', text: '\u25be' }] : []),
       ...(doubted.has(id) ? [{ location, className: 'doubt-mark', text: '?' }] : []),
-      ...(said ? [{ location: at, className: `news ${said.kind}`, text: said.text }] : []),
-    ];
+      ...(said ? [{ location: at, className: `news ${said.kind}`, text: said.text }] : [])];
   });
 }

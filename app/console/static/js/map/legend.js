@@ -42,8 +42,7 @@ function entriesOf(request, index, parts) {
     [pinned, 'pin', 'pinned'],
     [request.airspace?.no_fly?.length > 0, 'area', 'area'],
     [request.airspace?.zones?.length > 0, 'zone', 'zone'],
-    [keepsAway(request.airspace), 'kept', 'kept'],
-  ];
+    [keepsAway(request.airspace), 'kept', 'kept']];
   return entries.filter(([there]) => there).map(([, sign, name]) => [sign, name]);
 }
 

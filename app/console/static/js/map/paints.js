@@ -15,13 +15,9 @@ const EDGES_FROM = 14;
  * @type {[string, string[]][]}
  */
 const AREAS = [
-  ['sea', ['#c5dcec', '#14324a']],
-  ['green', ['#dbe9d2', '#1c3227']],
-  ['sand', ['#f1e8cf', '#2b2a22']],
-  ['water', ['#c5dcec', '#14324a']],
-  ['square', ['#ebe9e6', '#1f262e']],
-  ['building', ['#e2deda', '#252f39']],
-];
+  ['sea', ['#c5dcec', '#14324a']], ['green', ['#dbe9d2', '#1c3227']],
+  ['sand', ['#f1e8cf', '#2b2a22']], ['water', ['#c5dcec', '#14324a']],
+  ['square', ['#ebe9e6', '#1f262e']], ['building', ['#e2deda', '#252f39']]];
 
 /**
  * Lines in their order: kind, pixels at the base zoom, `[light, dark]`, and those of its edges.
@@ -39,8 +35,7 @@ const LINES = [
   ['primary', 3.8, ['#fdf0cf', '#546474'], ['#d9c795', '#1a2129']],
   ['motorway', 4.6, ['#f9dda8', '#627486'], ['#d3b06c', '#1a2129']],
   ['tram', 0.7, ['#c3bfc6', '#3a424b']],
-  ['rail', 1.3, ['#b3b0b6', '#3f4750']],
-];
+  ['rail', 1.3, ['#b3b0b6', '#3f4750']]];
 
 const LINE_WIDTHS = Object.fromEntries(LINES.map(([kind, width]) => [kind, width]));
 
@@ -79,8 +74,7 @@ export function paint(context, shapes, { zoom, pixel, dark }) {
 /** Return a path for each kind of a tile's content (see `app/maps/streets/cutting.py`). */
 export function shapesOf(content) {
   return Object.fromEntries(
-    Object.entries(content).map(([kind, lines]) => [kind, pathOf(lines)]),
-  );
+    Object.entries(content).map(([kind, lines]) => [kind, pathOf(lines)]));
 }
 
 function pathOf(lines) {

@@ -2,7 +2,6 @@
 
 import { besidePlan, hover, indexOf, select, settledOf, shownPlan } from '../actions.js';
 import { describe } from '../core/describe.js';
-import { flownLines } from '../core/flights.js';
 import { sightingsOf } from '../core/living.js';
 import { placeOf } from '../core/places.js';
 import { playback } from '../core/playback.js';
@@ -31,8 +30,7 @@ export function MapPane() {
   const [second, setSecond] = useState(null);
   useEffect(
     () => (first && second ? synchronise(first.map, second.map) : undefined),
-    [first, second],
-  );
+    [first, second]);
   useEffect(() => first?.fit(), [split, Boolean(second)]);
   return html`<section class=${`maps ${split && beside ? 'split' : ''}`}
     aria-label=${t('map.title')}>
@@ -52,10 +50,8 @@ export function MapPane() {
       </div>
       ${hasLocations(request) && html`<${MapLegend} request=${request} index=${indexOf(shown)}
         parts=${settledOf(shown, request)} />`}
-      ${
-        !hasLocations(request) &&
-        html`<p class="map-note">${t('map.none')}</p>`
-      }
+      ${!hasLocations(request)
+        && html`<p class="map-note">${request.matrices ? t('map.none') : t('map.empty')}</p>`}
     </div>
     ${
       split &&
@@ -102,15 +98,10 @@ function Map({ request, entry, onView, isMain = false }) {
   const index = indexOf(entry);
   const parts = settledOf(
     entry,
-    useStore((state) => state.request),
-  );
+    useStore((state) => state.request));
   useLayoutEffect(() => {
     const made = new MapView(element.current, {
-      geographic,
-      config,
-      planarUnit,
-      onHover: hover,
-      onSelect: select,
+      geographic, config, planarUnit, onHover: hover, onSelect: select,
     });
     setView(made);
     onView(made);
@@ -133,12 +124,10 @@ function Map({ request, entry, onView, isMain = false }) {
   useEffect(() => view?.shade(dark), [view, dark]);
   useEffect(
     () => view?.draw(request, index, parts, dark, doubts, news),
-    [view, request, index, parts, dark, doubts, news],
-  );
+    [view, request, index, parts, dark, doubts, news]);
   useEffect(
     () => (view ? followMarks(view, request, index) : undefined),
-    [view, request, index, parts, dark, doubts, news],
-  );
+    [view, request, index, parts, dark, doubts, news]);
   useEffect(() => (view && index ? followClock(view, index) : undefined), [view, index, dark]);
   return html`<div class="map" ref=${element} data-geographic=${geographic}></div>`;
 }
@@ -172,7 +161,7 @@ function followMarks(view, request, index) {
 
 /** Move trucks and drones with the clock; returns a function that ends it. */
 function followClock(view, index) {
-  const placesAt = playback(index, flownLines(index.request));
+  const placesAt = playback(index);
   let last;
   const follow = ({ time, live }) => {
     if (time === last?.time && live?.day === last.day) return;

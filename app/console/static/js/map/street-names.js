@@ -188,8 +188,7 @@ function pixelsOf(steps, size, [column, row], origin) {
     y += steps[index + 1];
     points.push([
       (column + x / 4096) * size - origin.x,
-      (row + y / 4096) * size - origin.y,
-    ]);
+      (row + y / 4096) * size - origin.y]);
   }
   return points;
 }

@@ -24,8 +24,7 @@ export const StreetsLayer = L.GridLayer.extend({
   initialize({ name, bounds: [west, south, east, north] }, options) {
     const bounds = [
       [south, west],
-      [north, east],
-    ];
+      [north, east]];
     L.setOptions(this, { ...options, bounds });
     this.name = name;
     this.dark = false;
@@ -69,8 +68,7 @@ export const StreetsLayer = L.GridLayer.extend({
         done(null, canvas);
         this.fire('named');
       },
-      (error) => done(error, canvas),
-    );
+      (error) => done(error, canvas));
     return canvas;
   },
 

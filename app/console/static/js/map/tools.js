@@ -23,19 +23,8 @@ import { pressPlace, pressSite } from './place-drag.js';
 
 /** What can be drawn, in the order of the buttons. */
 export const TOOLS = [
-  'customer',
-  'depot',
-  'site',
-  'window',
-  'windowArea',
-  'area',
-  'fit',
-  'change',
-  'place',
-  'order',
-  'pin',
-  'erase',
-];
+  'customer', 'depot', 'site', 'window', 'windowArea', 'area', 'fit', 'change', 'place', 'order',
+  'pin', 'erase'];
 
 /** Tools for which it doesn't matter what is on the map already. */
 const ON_GROUND = new Set(['customer', 'depot', 'site', 'windowArea', 'area', 'place', 'order']);
@@ -220,8 +209,7 @@ function changeAreas(view) {
       if (!shape.pm) library.reInitLayer(shape);
       shape.pm.enable({ allowSelfIntersection: false, snappable: false });
       shape.on('pm:markerdragend pm:vertexremoved', () =>
-        edit((request) => setArea(request, ringOf(shape), position)),
-      );
+        edit((request) => setArea(request, ringOf(shape), position)));
     });
   };
   // Shapes are drawn anew with each edit.

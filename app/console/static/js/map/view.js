@@ -160,8 +160,7 @@ export class MapView {
     this.noFly = noFlyShapes(request, dark);
     this.buffers = bufferShapes(request, dark);
     [...this.buffers, ...zoneShapes(request, dark), ...this.noFly].forEach((shape) =>
-      this.areas.addLayer(shape),
-    );
+      this.areas.addLayer(shape));
     const lines = index ? planLines(index, parts, dark) : [];
     this.entries = [...lines, ...customerMarks(request, index, parts, dark)];
     this.byKey = new Map();
@@ -239,6 +238,7 @@ export class MapView {
     this.numbers.clearLayers();
     const { trip } = partsOf(this.index, selection);
     if (trip) stopNumbers(trip).forEach((mark) => this.numbers.addLayer(mark));
+    this.map.fire('drawn');
   }
 
   /** Let the leg that a key names stand out, as what is dropped there would be on it; or none. */
@@ -336,8 +336,7 @@ export class MapView {
           interactive: false,
           keyboard: false,
           zIndexOffset: kind === 'truck' ? 900 : 1000,
-        }).addTo(this.movers),
-      );
+        }).addTo(this.movers));
     }
     this.trucks.get(key).setLatLng(latLng(what.location));
   }

@@ -19,10 +19,6 @@ export const LOOKING = {
   dialog: null, // name of the open dialog
   tool: null, // what is drawn on the map, see map/tools.js
   brush: {
-    demand: [1],
-    service_duration: 300,
-    served_by: 'either',
-    earliest: 28800,
-    latest: 43200,
+    demand: [1], service_duration: 300, served_by: 'either', earliest: 28800, latest: 43200,
   },
 };

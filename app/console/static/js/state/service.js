@@ -6,11 +6,7 @@ export const SERVICE = {
   schemas: null, // of /openapi.json
   examples: [], // {name, summary, request}
   config: {
-    policies: [],
-    tile_url: null,
-    tile_attribution: '',
-    streets: [],
-    max_job_seconds: Infinity,
+    policies: [], tile_url: null, tile_attribution: '', streets: [], max_job_seconds: Infinity,
   },
   starting: null, // {detail} until the service is ready
   dark: false,

@@ -78,8 +78,7 @@ export function drawTimeline(context, rows, view) {
   context.clip();
   context.translate(0, AXIS - scroll);
   const seen = rows.filter(
-    ({ top, height: size }) => top + size >= scroll && top <= scroll + height,
-  );
+    ({ top, height: size }) => top + size >= scroll && top <= scroll + height);
   for (const row of seen) drawRow(context, row, scale, view);
   if (view.drop) drawDrop(context, view.drop, scale, view);
   context.restore();
@@ -164,8 +163,7 @@ function drawLabel(context, row, gutter, { colours, dark }) {
   context.fillText(
     shortened(context, row.label, gutter - 24),
     row.kind === 'drone' ? 24 : 16,
-    middle,
-  );
+    middle);
 }
 
 function shortened(context, text, width) {

@@ -122,9 +122,7 @@ function attach(box, canvas, state) {
   const context = canvas.getContext('2d');
   let frame = 0;
   const view = () => ({
-    width: box.clientWidth,
-    height: box.clientHeight,
-    scroll: box.scrollTop,
+    width: box.clientWidth, height: box.clientHeight, scroll: box.scrollTop,
     range: state.current.range,
   });
   const draw = () => {
@@ -166,8 +164,7 @@ function attach(box, canvas, state) {
     store.subscribe(redraw),
     listen(box, 'scroll', redraw),
     ...pointer(box, canvas, state, view),
-    listen(canvas, 'keydown', (event) => onKey(event, state)),
-  ];
+    listen(canvas, 'keydown', (event) => onKey(event, state))];
   const resizes = new ResizeObserver(redraw);
   resizes.observe(box);
   document.fonts.ready.then(redraw);
@@ -264,13 +261,7 @@ function pointer(box, canvas, state, view) {
       const shift = scale.time(0) - scale.time(event.clientX - drag.x);
       drag.moved ||= Math.abs(event.clientX - drag.x) > LEAST_DRAG;
       const { whole, setRange } = state.current;
-      if (drag.moved)
-        setRange(
-          within(
-            drag.range.map((time) => time + shift),
-            whole,
-          ),
-        );
+      if (drag.moved) setRange(within(drag.range.map((time) => time + shift), whole));
     }),
     listen(canvas, 'pointerup', (event) => {
       if (drag?.halt && drag.moved) show(dropAt(event));
@@ -286,19 +277,13 @@ function pointer(box, canvas, state, view) {
       show(null);
     }),
     listen(canvas, 'pointerleave', () => hover(null)),
-    listen(
-      canvas,
-      'wheel',
-      (event) => {
-        if (!event.ctrlKey && !event.shiftKey) return;
-        event.preventDefault();
-        const { range, whole, setRange } = state.current;
-        const around = scaleOf(range, view().width).time(place(event).x);
-        setRange(zoomed(range, whole, event.deltaY + event.deltaX > 0 ? 1.25 : 0.8, around));
-      },
-      { passive: false },
-    ),
-  ];
+    listen(canvas, 'wheel', (event) => {
+      if (!event.ctrlKey && !event.shiftKey) return;
+      event.preventDefault();
+      const { range, whole, setRange } = state.current;
+      const around = scaleOf(range, view().width).time(place(event).x);
+      setRange(zoomed(range, whole, event.deltaY + event.deltaX > 0 ? 1.25 : 0.8, around));
+    }, { passive: false })];
 }
 
 function tipOf(index, key) {
@@ -309,8 +294,7 @@ function tipOf(index, key) {
 /** Move the selection from stop to stop and from vehicle to vehicle. */
 function onKey(event, state) {
   const step = { ArrowLeft: [0, -1], ArrowRight: [0, 1], ArrowUp: [-1, 0], ArrowDown: [1, 0] }[
-    event.key
-  ];
+    event.key];
   if (!step) return;
   event.preventDefault();
   const { index } = state.current;
@@ -331,7 +315,6 @@ function onKey(event, state) {
 function haltsOf(vehicle) {
   const halts = vehicle.trips.flatMap((trip) => [
     ...trip.stops,
-    ...trip.sorties.flatMap((sortie) => sortie.visits),
-  ]);
+    ...trip.sorties.flatMap((sortie) => sortie.visits)]);
   return halts.sort((first, second) => first.arrival - second.arrival);
 }

@@ -17,8 +17,7 @@ export function togglePlaying(index) {
   store.set(({ playing, time }) =>
     playing
       ? { playing: false }
-      : { playing: true, time: time === null || time >= end ? start : time },
-  );
+      : { playing: true, time: time === null || time >= end ? start : time });
 }
 
 /** Move the clock while it runs; returns a function that ends it. */

@@ -49,6 +49,8 @@ function Changes() {
   return html`<section class="section"><h3>${t('whatIf.title')}</h3>
     ${request.fleet.map(
       (type, position) => html`<div class="buttons" key=${position}>
+      <span class="whole-line">${t('whatIf.now', { id: type.id, count: type.count })}${
+        droneCount(type) > 0 && t('whatIf.withDrones', { count: droneCount(type) })}</span>
       <button type="button" disabled=${onlyOne && type.count === 1}
         aria-label=${t('whatIf.fewerOf', { id: type.id })}
         onClick=${() => changeAndPlan(addVehicles(request, position, -1))}>
@@ -58,9 +60,7 @@ function Changes() {
         ${t('whatIf.more')}</button>
       <button type="button" aria-label=${t('whatIf.addDroneOf', { id: type.id })}
         onClick=${() => changeAndPlan(addDrone(request, position))}>
-        ${t('whatIf.addDrone')}</button>
-      <span>${t('whatIf.now', { id: type.id, count: type.count })}${
-        droneCount(type) > 0 && t('whatIf.withDrones', { count: droneCount(type) })}</span></div>`,
+        ${t('whatIf.addDrone')}</button></div>`,
     )}
     <div class="buttons">
       <button type="button" disabled=${!hasDrones}

@@ -80,11 +80,8 @@ function Summary({ summary, flights }) {
     [t('about.flights'), number(flights, 0)],
     ...(summary.co2_kg == null ? [] : [['CO\u2082', `${number(summary.co2_kg, 1)} kg`]]),
     [t('costs.loadRate'), t('costs.rates', {
-      min: percent(rates.min),
-      max: percent(rates.max),
-      mean: percent(rates.mean),
-    })],
-  ];
+      min: percent(rates.min), max: percent(rates.max), mean: percent(rates.mean),
+    })]];
   return html`<section class="section"><h3>${t('costs.numbers')}</h3>
     <table><tbody>${rows.map(
     ([name, value]) => html`<tr key=${name}><th scope="row">${name}</th><td>${value}</td></tr>`,

@@ -48,8 +48,7 @@ function CustomerTable({ request }) {
   const doubts = useStore((state) => state.doubts);
   const doubted = useMemo(
     () => new Set(doubtedPlaces(request, doubts).map(({ id }) => id)),
-    [request.customers, doubts],
-  );
+    [request.customers, doubts]);
   const columns = useMemo(
     () => columnsOf(request.customers, broken), [request.customers, broken]);
   const head = html`<tr><th scope="col"><${PickAll} rows=${rows} picked=${picked}
@@ -142,7 +141,7 @@ function CustomerRow({
       ${amounts(customer.demand ?? [])}</td>`}
     ${columns.window && html`<td
       ...${cell(customer.time_windows ? 'time_windows' : 'time_window')}>
-      ${windowsOf(customer).length > 0 && windowsInWords(windowsOf(customer))}</td>`}
+      ${windowsOf(customer).length > 0 && short(windowsInWords(windowsOf(customer)))}</td>`}
     ${columns.by && html`<td ...${cell('served_by')}
       class=${`roomy ${errors?.has('served_by') ? 'invalid' : ''}`}>
       ${t(`customers.by.${customer.served_by ?? 'either'}`)}</td>`}
@@ -151,6 +150,11 @@ function CustomerRow({
         class=${`news ${said.kind}`}>${said.text}</small>`}${late && html`<small
         >${late}</small>`}${halt?.alternative && html`<small>${halt.alternative}</small>`}</td>`}
     </tr>`;
+}
+
+/** Return windows with dashes, so that names have more room. */
+function short(windows) {
+  return windows.replaceAll(` ${t('format.to')} `, '\u2013');
 }
 
 function addCustomer(request) {

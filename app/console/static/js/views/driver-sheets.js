@@ -30,8 +30,7 @@ export function printSheets(vehicles, parts, isGeographic, links = new Map()) {
     html`${vehicles.map((vehicle) => html`<${Sheet}
       key=${vehicle.key} vehicle=${vehicle} parts=${parts} isGeographic=${isGeographic}
       link=${links.get(vehicle.name)} />`)}`,
-    holder,
-  );
+    holder);
   window.print();
 }
 
@@ -100,8 +99,7 @@ function orders(trip, halt) {
           at: clock(sortie.reply.launch_time),
           drone: name(sortie),
           names: sortie.visits.map(({ id, source }) => `${id} (${handed(source)})`).join(', '),
-        }),
-    );
+        }));
   const recoveries = trip.sorties
     .filter(({ to }) => to === halt)
     .map((sortie) => t('sheet.recover', {
@@ -109,6 +107,5 @@ function orders(trip, halt) {
       drone: name(sortie),
     }));
   return [...launches, ...recoveries].sort((first, second) =>
-    first.localeCompare(second, 'en', { numeric: true }),
-  );
+    first.localeCompare(second, 'en', { numeric: true }));
 }

@@ -155,8 +155,7 @@ function Failures({ links }) {
   const rows = links.flatMap(({ vehicle, standing }) =>
     standing
       .filter(({ state }) => state === 'failed')
-      .map((step) => ({ vehicle, key: `${vehicle} ${step.id}`, ...step })),
-  );
+      .map((step) => ({ vehicle, key: `${vehicle} ${step.id}`, ...step })));
   if (!rows.length) return null;
   return html`<section class="section"><h3>${t('drivers.failed')}</h3><ul>${rows.map(
     ({ key, vehicle, place, reason, time }) => html`<li key=${key}>${place},

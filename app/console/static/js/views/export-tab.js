@@ -4,7 +4,6 @@ import { indexOf, settledOf, showFailure, shownPlan } from '../actions.js';
 import { postPicture } from '../api.js';
 import { linksByVehicle } from '../core/dispatches.js';
 import { geoJson, gpx, stopsCsv } from '../core/exports.js';
-import { flownLines } from '../core/flights.js';
 import { asStated } from '../core/times.js';
 import { nameOfVehicle } from '../core/vehicle-labels.js';
 import { html } from '../libraries.js';
@@ -30,7 +29,6 @@ export function ExportTab() {
       saveJson('problem.json', asStated(schemas, request, stated))}>
       ${t('take.problemJson')}</button></div></section>`;
   if (!index) return html`${problem}<p class="empty">${t('timeline.nothing')}</p>`;
-  const legsOf = flownLines(entry.request);
   const parts = settledOf(entry, request);
   const isGeographic = entry.request.coordinate_system === 'geographic';
   const print = (vehicles) => printSheets(vehicles, parts, isGeographic, links);
@@ -44,7 +42,7 @@ export function ExportTab() {
         save(
           'plan.geojson',
           'application/geo+json',
-          JSON.stringify(geoJson(index, legsOf)),
+          JSON.stringify(geoJson(index)),
         )}>GeoJSON</button></div></section>
     <section class="section"><h3>${t('take.picture')}</h3><div class="buttons">
       <button type="button" onClick=${() => savePicture(entry, false)}>
@@ -67,7 +65,7 @@ export function ExportTab() {
           <button type="button" disabled=${!isGeographic} 
             aria-label=${t('take.gpxOf', { vehicle: nameOfVehicle(vehicle.name) })}
             onClick=${() =>
-              save(`${vehicle.name}.gpx`, 'application/gpx+xml', gpx(vehicle, legsOf))}>GPX</button>
+              save(`${vehicle.name}.gpx`, 'application/gpx+xml', gpx(vehicle))}>GPX</button>
         </div></td></tr>`,
       )}</tbody></table></section>`;
 }

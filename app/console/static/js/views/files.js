@@ -59,11 +59,8 @@ export function listenToPastes() {
 /** Add the zones of a file to the problem that is open. */
 function openZones(file, zones) {
   if (store.get().request.coordinate_system !== 'geographic') {
-    throw new ApiError(
-      0,
-      t('files.zonesOnPlane', { file: file.name }),
-      t('files.zonesOnPlaneHelp'),
-    );
+    const title = t('files.zonesOnPlane', { file: file.name });
+    throw new ApiError(0, title, t('files.zonesOnPlaneHelp'));
   }
   edit((request) => addZones(request, zones));
 }
@@ -112,14 +109,10 @@ async function openJson(file) {
   }
   const request = content?.problem ?? content;
   const lacking = ['depots', 'customers', 'fleet'].filter(
-    (name) => !Array.isArray(request?.[name]),
-  );
+    (name) => !Array.isArray(request?.[name]));
   if (lacking.length) {
-    throw new ApiError(
-      0,
-      t('files.noProblem', { file: file.name }),
-      t('files.lacks', { names: lacking.map(labelOf).join(', ') }),
-    );
+    const names = lacking.map(labelOf).join(', ');
+    throw new ApiError(0, t('files.noProblem', { file: file.name }), t('files.lacks', { names }));
   }
   openRequest(request, { name: withoutEnding(file.name), isSafe: true });
   await plan();

@@ -16,8 +16,7 @@ import { t } from '../texts.js';
 
 /** What is asked of every type. */
 const EVERYDAY = [
-  'id', 'count', 'names', 'capacity', 'depot', 'shift', 'speed_kmh', 'costs', 'drones',
-];
+  'id', 'count', 'names', 'capacity', 'depot', 'shift', 'speed_kmh', 'costs', 'drones'];
 
 /** What else there is. */
 const TOPICS = {
@@ -57,8 +56,7 @@ export function FleetTab() {
         {
           ...(request.fleet.at(-1) ?? { count: 1, capacity: [100] }),
           id: freeName(request.fleet, 'type'),
-        },
-      ],
+        }],
     });
     setAdded({ position: request.fleet.length });
   };

@@ -10,11 +10,8 @@ import { t } from '../texts.js';
 
 /** Formats by what they are called. */
 const FORMATS = {
-  'qgc-plan': 'QGroundControl (.plan)',
-  'qgc-wpl': 'MAVLink (QGC WPL 110)',
-  kml: 'KML',
-  'dji-wpml': 'DJI WPML (.kmz)',
-  geojson: 'GeoJSON',
+  'qgc-plan': 'QGroundControl (.plan)', 'qgc-wpl': 'MAVLink (QGC WPL 110)', kml: 'KML',
+  'dji-wpml': 'DJI WPML (.kmz)', geojson: 'GeoJSON',
 };
 
 /** What DJI's aircraft do where the remote control is lost, as `wpml` of a request says it. */
@@ -22,8 +19,7 @@ const LOST = {
   goContinue: {},
   ...Object.fromEntries(['hover', 'landing', 'goBack'].map((action) => [
     action,
-    { exit_on_rc_lost: 'executeLostAction', rc_lost_action: action },
-  ])),
+    { exit_on_rc_lost: 'executeLostAction', rc_lost_action: action }])),
 };
 
 /** The choice of a format, and the button that saves; nothing where no drone flies. */

@@ -50,14 +50,7 @@ const ENTRIES = new Set(['texts', 'several', 'numbers', 'durations', 'words']);
 
 /** One field, of whatever kind its schema says; `owner` is the title of the schema that has it. */
 export function Field({
-  name,
-  schema,
-  keys,
-  request,
-  onChange,
-  owner = 'PlanRequest',
-  choices = {},
-  required = false,
+  name, schema, keys, request, onChange, owner = 'PlanRequest', choices = {}, required = false,
 }) {
   const schemas = useStore((state) => state.schemas);
   const found = ruled(resolve(schemas, schema), owner, request, keys);
@@ -65,8 +58,7 @@ export function Field({
   const errors = useStore((state) => state.errors).filter(
     // What is wrong with one of several texts or numbers is told at the field that has them all.
     (error) => keyOf(ENTRIES.has(kind) ? error.keys.slice(0, keys.length) : error.keys)
-      === keyOf(keys),
-  );
+      === keyOf(keys));
   if (kind === 'other') return null;
   const time = timeKindAt(schema, request, keys);
   const help = html`<${Help} id=${`${idOf(keys)}-help`} keys=${keys} schema=${found.schema}
@@ -119,17 +111,7 @@ function idOf(keys) {
 }
 
 function PlainField({
-  name,
-  schema,
-  keys,
-  request,
-  onChange,
-  kind,
-  nullable,
-  required,
-  errors,
-  choices,
-  help,
+  name, schema, keys, request, onChange, kind, nullable, required, errors, choices, help,
 }) {
   const id = idOf(keys);
   const value = getIn(request, keys);
@@ -160,8 +142,7 @@ function PlainField({
 export function Cell({ schema, keys, request, onChange, label, required = false }) {
   const schemas = useStore((state) => state.schemas);
   const errors = useStore((state) => state.errors).filter(
-    (error) => keyOf(error.keys) === keyOf(keys),
-  );
+    (error) => keyOf(error.keys) === keyOf(keys));
   const [problem, setProblem] = useState(null);
   const found = resolve(schemas, schema);
   const id = idOf(keys);
@@ -241,17 +222,7 @@ function valueOf(text, { kind, required }) {
 }
 
 function TextInput({
-  id,
-  kind,
-  schema,
-  value,
-  set,
-  nullable,
-  required,
-  describedBy,
-  invalid,
-  onProblem,
-  label = null,
+  id, kind, schema, value, set, nullable, required, describedBy, invalid, onProblem, label = null,
 }) {
   const [text, setText] = useState(textOf(kind, value));
   useLayoutEffect(() => {
@@ -280,8 +251,7 @@ function ObjectField({ name, schema, keys, request, onChange, nullable, choices,
     onChange(
       event.target.checked
         ? setIn(request, keys, presetOf(name, request, keys) ?? blank(schemas, schema))
-        : removeIn(request, keys),
-    );
+        : removeIn(request, keys));
   return html`<fieldset class="group">
     <legend>${
       nullable

@@ -8,8 +8,7 @@ import { store } from '../store.js';
 function nearestField(keys) {
   if (!keys.length) return null;
   return (
-    document.getElementById(`field-${keys.join('-')}`) ?? nearestField(keys.slice(0, -1))
-  );
+    document.getElementById(`field-${keys.join('-')}`) ?? nearestField(keys.slice(0, -1)));
 }
 
 /** Open the tab with the field at a place, and go there; a customer is selected, too. */
@@ -26,6 +25,5 @@ export function goTo(keys) {
       field?.closest('details')?.setAttribute('open', '');
       field?.scrollIntoView({ block: 'center' });
       field?.focus();
-    }),
-  );
+    }));
 }

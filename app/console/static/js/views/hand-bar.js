@@ -113,8 +113,7 @@ function notesOn(fit, place) {
   const isIdle = fit.entry.plan.routes.every(({ vehicle }) => vehicle !== place.vehicle);
   return [
     ...(isIdle ? [t('orders.idle')] : []),
-    ...(isFurther(fit, place) ? [t('orders.another')] : []),
-  ];
+    ...(isFurther(fit, place) ? [t('orders.another')] : [])];
 }
 
 /** Return the key of the stop that a place comes after, which map and timeline mark. */

@@ -104,8 +104,7 @@ function Ground({ request, places, isPlacing }) {
 function placesIn({ customers, shipments = [] }) {
   const ends = shipments.flatMap(({ pickup, pickups, delivery }) => [
     ...(pickups ?? [pickup]),
-    delivery,
-  ]);
+    delivery]);
   return [...customers, ...ends].map(placeOf).filter(Boolean);
 }
 
@@ -118,8 +117,7 @@ function lookAt(view, request, { streets }) {
     const [west, south, east, north] = streets[0].bounds;
     const corners = [
       [south, west],
-      [north, east],
-    ];
+      [north, east]];
     view.map.fitBounds(corners, { animate: false });
   } else view.map.setView(MIDDLE, FAR, { animate: false });
 }

@@ -25,15 +25,11 @@ export function Reading({ importing: { reply, mapping } }) {
     }
     <${Choice} label=${t('import.decimals')} value=${mapping.decimals ?? ''}
       options=${[
-        ['', t('import.found')],
-        [',', t('import.comma')],
-        ['.', t('import.point')],
+        ['', t('import.found')], [',', t('import.comma')], ['.', t('import.point')],
       ]} onChoose=${(decimals) => choose({ decimals: decimals || null })} />
     <${Choice} label=${t('import.dates')} value=${dayFirst}
       options=${[
-        ['', t('import.found')],
-        ['true', t('import.dayFirst')],
-        ['false', t('import.monthFirst')],
+        ['', t('import.found')], ['true', t('import.dayFirst')], ['false', t('import.monthFirst')],
       ]}
       onChoose=${(first) => choose({ day_first: first === '' ? null : first === 'true' })} />
     <${Choice} label=${t('import.samePlace')} value=${mapping.same_place ?? 'together'}

@@ -41,11 +41,8 @@ export function LongTable({ head, rows, height, rowHeight = 36, label, renderRow
     <table aria-rowcount=${rows.length + 1}>
       <thead>${head}</thead>
       <tbody>${[
-        gap('above', 0, one[0]),
-        ...span(one).map(row),
-        gap('between', one[1], other[0]),
-        ...span(other).map(row),
-        gap('below', other[1], rows.length),
+        gap('above', 0, one[0]), ...span(one).map(row), gap('between', one[1], other[0]),
+        ...span(other).map(row), gap('below', other[1], rows.length),
       ]}</tbody>
     </table></div>`;
 }

@@ -24,22 +24,13 @@ import { t } from '../texts.js';
 const ExportTab = later(async () => (await import('./export-tab.js')).ExportTab);
 const ScenariosTab = later(async () => (await import('./scenarios-tab.js')).ScenariosTab);
 const UnassignedTab = later(
-  async () => (await import('./unassigned-tab.js')).UnassignedTab,
-);
+  async () => (await import('./unassigned-tab.js')).UnassignedTab);
 
 /** Views by tab. */
 const TABS = {
-  customers: CustomersTab,
-  fleet: FleetTab,
-  solve: SolveTab,
-  routes: RoutesTab,
-  costs: CostsTab,
-  unassigned: UnassignedTab,
-  changes: ChangesTab,
-  replan: ReplanTab,
-  scenarios: ScenariosTab,
-  export: ExportTab,
-  drivers: DriversTab,
+  customers: CustomersTab, fleet: FleetTab, solve: SolveTab, routes: RoutesTab, costs: CostsTab,
+  unassigned: UnassignedTab, changes: ChangesTab, replan: ReplanTab, scenarios: ScenariosTab,
+  export: ExportTab, drivers: DriversTab,
 };
 
 /** The room that is open, what is selected beside it, and the edge between both. */

@@ -53,8 +53,7 @@ export function Places({ request }) {
       setIn(request, ['depots', request.depots.length], {
         id: freeName(request.depots, 'depot'),
         location: [...(placeOf(request.depots[0]) ?? [0, 0])],
-      }),
-    );
+      }));
   return html`<details class="card"><summary>${t('customers.places')}
       <span class="right">${t('customers.depots', {
         count: request.depots.length,

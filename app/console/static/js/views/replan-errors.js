@@ -12,6 +12,5 @@ export function errorsAt(errors, test) {
 export function Errors({ errors, id }) {
   return errors.map(
     (error) => html`<div class="error" id=${id} tabindex=${id ? -1 : undefined}
-      key=${error.path + error.code}><${Said} ...${error} /></div>`,
-  );
+      key=${error.path + error.code}><${Said} ...${error} /></div>`);
 }

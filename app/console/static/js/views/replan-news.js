@@ -21,8 +21,7 @@ export function News({ request, basis }) {
   const tool = useStore((state) => state.tool);
   const changes = basis
     ? requestDifferences(fromNothing(basis.request), fromNothing(request)).filter(
-        ({ path }) => !path.startsWith('options'),
-      )
+        ({ path }) => !path.startsWith('options'))
     : [];
   const button = (name, text) => html`<button type="button" aria-pressed=${tool === name}
     onClick=${() => takeTool(name)}>${text}</button>`;

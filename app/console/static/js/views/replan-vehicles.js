@@ -35,8 +35,7 @@ export function Vehicles({ request, basis, errors }) {
     errors: errorsAt(errors, ([, section, part, at]) =>
       section === 'plan'
         ? part === 'routes' && at === position
-        : section === 'unavailable' && unavailable[part] === state.route.vehicle,
-    ),
+        : section === 'unavailable' && unavailable[part] === state.route.vehicle),
   }));
   const order = (row) => row.vehicle?.index ?? row.position;
   rows.sort((first, second) => order(first) - order(second));

@@ -182,10 +182,8 @@ function Sortie({ index, sortie, selection, hovered, columns }) {
       <td colspan="5" class="help"><${SelectButton}
         of=${sortie.key}>${t('routes.flies', { drone })}</${SelectButton}>
         ${' '}${t('routes.flight', {
-          from: clock(reply.launch_time),
-          until: clock(reply.recovery_time),
-          way: km(reply.distance),
-          back: sortie.to.id,
+          from: clock(reply.launch_time), until: clock(reply.recovery_time),
+          way: km(reply.distance), back: sortie.to.id,
         })}${isUseless && html`<strong class="late-text">, ${
           t('routes.useless')}</strong>`}</td></tr>
     ${sortie.visits.map(

@@ -267,9 +267,7 @@ function HeatCell({ cell, table, body, axes }) {
       cell.job,
       axes.reduce(
         (request, { path }, index) => writeAt(request, path, cell.values[index]),
-        body.base,
-      ),
-    );
+        body.base));
   const out = cell.unassigned > 0 ? html`<br /><small>${t('scenario.out', {
     count: cell.unassigned,
   })}</small>` : '';

@@ -16,20 +16,8 @@ const KEPT = 'tandem-single-keys';
 
 /** Keys that do something by themselves, as the list of keys shows them; they can be put off. */
 export const SINGLE_KEYS = [
-  'plan',
-  'stop',
-  'improve',
-  'replan',
-  'play',
-  'tabs',
-  'open',
-  'undo',
-  'redo',
-  'timeline',
-  'map',
-  'theme',
-  'list',
-];
+  'plan', 'stop', 'improve', 'replan', 'play', 'tabs', 'open', 'undo', 'redo', 'timeline', 'map',
+  'theme', 'list'];
 
 /** Keys that work in any case. */
 export const OTHER_KEYS = ['undo', 'redo', 'save', 'escape'];

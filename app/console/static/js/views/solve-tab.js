@@ -3,7 +3,7 @@
 import { edit, showFailure, shownPlan } from '../actions.js';
 import { duration, money, number } from '../core/format.js';
 import { fittingSeconds } from '../core/limits.js';
-import { labelOf } from '../core/schema.js';
+import { labelOf, withinSentence } from '../core/schema.js';
 import { penaltyOf, trueCost } from '../core/terms.js';
 import { html, uPlot, useEffect, useRef, useState } from '../libraries.js';
 import { useStore } from '../store.js';
@@ -54,7 +54,7 @@ function withFittingLimit(schema, request, most) {
 function statedIn(options, names) {
   return names
     .filter((name) => !OWN.includes(name) && options?.[name] !== undefined)
-    .map((name) => labelOf(name).toLowerCase())
+    .map((name) => withinSentence(labelOf(name)))
     .join(', ');
 }
 
@@ -112,8 +112,7 @@ function draw(Chart, element, onChart) {
     },
     axes: [
       { ...axis, label: seconds, labelSize: 18, labelFont: '11px Inter, system-ui', size: 28 },
-      { ...axis, size: 56 },
-    ],
+      { ...axis, size: 56 }],
     series: [
       { label: seconds, value: (_, value) => (value === null ? '' : number(value, 2)) },
       {
@@ -123,8 +122,7 @@ function draw(Chart, element, onChart) {
         paths: Chart.paths.stepped({ align: 1 }),
         points: { show: true, size: 5, fill: colour('surface-1') },
         value: (_, value) => (value === null ? '' : money(value)),
-      },
-    ],
+      }],
   };
   const chart = new Chart(options, [[], []], element);
   const resizes = new ResizeObserver(() => chart.setSize(sizeOf()));

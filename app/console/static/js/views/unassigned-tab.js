@@ -24,8 +24,7 @@ export function UnassignedTab() {
   const idle = useStore((state) => state.run.state === 'idle');
   const groups = useMemo(
     () => (entry ? groupUnassigned(entry.request, entry.plan.unassigned) : []),
-    [entry],
-  );
+    [entry]);
   useEffect(() => {
     if (entry && idle) priceLargest(entry, groups);
   }, [entry, idle]);
@@ -48,8 +47,7 @@ function Group({ group, entry }) {
   const { members } = group;
   const customers = members.map(
     ({ customer }) => html`<${Unassigned} key=${customer.id} customer=${customer}
-      entry=${entry} request=${request} />`,
-  );
+      entry=${entry} request=${request} />`);
   const ways = [group, ...group.others];
   const price = (way) => way.changed && html`<${Price} group=${way} entry=${entry} />`;
   const priced = ways.map((way) => html`<${Way} key=${way.key} way=${way}

@@ -11,8 +11,7 @@ import { t } from '../texts.js';
 export function UntoldOrders({ told }) {
   const { broken, doubtful, replan } = told;
   const [served, setServed] = useState(
-    new Set(doubtful.filter((order) => order.is_served).map(({ customer }) => customer)),
-  );
+    new Set(doubtful.filter((order) => order.is_served).map(({ customer }) => customer)));
   const choose = (orders, isServed) => {
     const chosen = new Set(served);
     orders.forEach(({ customer }) => (isServed ? chosen.add(customer) : chosen.delete(customer)));

@@ -60,9 +60,7 @@ function Hours({ request, isOpen }) {
 function HourCell({ name, place, request }) {
   const { properties, required } = useStore((state) => state.schemas).WindHourInput;
   const label = {
-    from: t('wind.from'),
-    speed_kmh: t('wind.speed'),
-    direction_deg: t('wind.direction'),
+    from: t('wind.from'), speed_kmh: t('wind.speed'), direction_deg: t('wind.direction'),
     gust_kmh: t('wind.gusts'),
   }[name];
   return html`<${Cell} schema=${properties[name]} keys=${[...WIND, place, name]} request=${request}

@@ -22,15 +22,13 @@ export function WindowFields({ customer, onApply }) {
   useLayoutEffect(() => setText(texts()), [customer]);
   const times = text.map((part) => (part.trim() === '' ? null : parseClock(part)));
   const isWrong = text.map(
-    (part, at) => part.trim() !== '' && (times[at] === null || (at % 2 && times[at] < 0)),
-  );
+    (part, at) => part.trim() !== '' && (times[at] === null || (at % 2 && times[at] < 0)));
   const apply = () =>
     onApply(
       windows.map((_, number) => ({
         earliest: Math.max(0, times[2 * number] ?? 0),
         latest: times[2 * number + 1] ?? null,
-      })),
-    );
+      })));
   const input = (at, label) => html`<label>${label} <input type="text" size="6"
     value=${text[at] ?? ''} placeholder=${at % 2 ? t('windows.never') : '0:00'}
     aria-invalid=${Boolean(isWrong[at])}
