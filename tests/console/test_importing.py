@@ -88,15 +88,15 @@ def test_trips_costs_and_currency_are_assumed_told_and_changed(
     open_file(page, "today.csv", SHEET)
     shown = dialog(page)
     hour, currency = {"Europe/Zurich": ("45", "CHF"), "America/New_York": ("30", "USD")}[zone]
-    expect(shown.get_by_text(f"an hour is taken to cost {hour} {currency}")).to_be_visible()
-    expect(shown.get_by_text("Vehicles may go out again")).to_be_visible()
+    expect(shown.get_by_text(f"an hour costs {hour} {currency}")).to_be_visible()
+    expect(shown.get_by_text("Vehicles go out up to")).to_be_visible()
     for field, assumed in (("max_trips", "5"), ("per_hour", hour), ("currency", currency)):
         expect(page.locator(f"#import-{field}-taken")).to_have_text(f"taken: {assumed}")
     shown.get_by_text("More of trips, costs and drones").click()
     state_field(page, "max_trips", "1")
     state_field(page, "per_hour", "20")
     state_field(page, "currency", "pln")
-    expect(shown.get_by_text("Vehicles may go out again")).to_have_count(0)
+    expect(shown.get_by_text("Vehicles go out up to")).to_have_count(0)
     use(page)
     planned(page, "2 of 2 served")
     request = state(page, "state.request")
@@ -117,7 +117,7 @@ def test_what_is_assumed_is_told(page: Page) -> None:
 def test_a_wrong_cell_is_named_and_its_row_left_out(page: Page) -> None:
     open_file(page, "today.csv", SHEET.replace("47.39", "47.x"))
     shown = dialog(page)
-    expect(shown.get_by_role("alert")).to_contain_text("B3: '47.x' is no number")
+    expect(shown.get_by_role("alert")).to_contain_text("B3: \u201c47.x\u201d is no number")
     expect(page.locator("#use-import")).to_be_disabled()
     shown.get_by_label("Leave out the rows with errors").check()
     use(page)
