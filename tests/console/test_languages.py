@@ -178,6 +178,7 @@ def test_import_has_nothing_english_on_german_pages(open_page: Callable[..., Pag
     open_file(page, "touren.csv", DOUBTFUL)
     dialog = page.get_by_role("dialog")
     expect(dialog.get_by_text("Keine Arbeitszeit angegeben")).to_be_visible()
+    expect(dialog.get_by_text("Spalte G: 1 Zelle ist leer, G3: Sie zählt 0.")).to_be_visible()
     expect(dialog.get_by_role("alert")).to_be_visible()
     dialog.evaluate("each => each.querySelectorAll('details').forEach((one) => one.open = true)")
     assert sorted(set(page.evaluate(LEFT_OVERS))) == []

@@ -80,6 +80,12 @@ export function parseNumber(text) {
   return Number(trimmed);
 }
 
+/** Return a text's one decimal point as the language has it, as `parseNumber` reads it. */
+export function withDecimals(text) {
+  const sign = (0.5).toLocaleString(language()).charAt(1);
+  return text.replace(/^([^\d.,]*\d+)\.(\d+[^\d.,]*)$/, `$1${sign}$2`);
+}
+
 /**
  * Return a message of the service in words: `at 36000 s` as `at 10:00`, `7332.8 minutes` and
  * `600 s` as hours and minutes.

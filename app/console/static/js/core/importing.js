@@ -1,7 +1,7 @@
 /** What the console knows of imports: corrections, what is stated beside, earlier mappings. */
 
-import { language, t } from '../texts.js';
-import { clock, number, parseHours, parseNumber } from './format.js';
+import { t } from '../texts.js';
+import { clock, number, parseHours, parseNumber, withDecimals } from './format.js';
 import { soughtIn } from './places.js';
 
 const MOST_REMEMBERED = 30;
@@ -71,14 +71,8 @@ export function madeOf(meaning, { raw, read }) {
   const [, side, own] = /^(pickup|alternative)_(\w+)$/.exec(meaning) ?? [null, null, meaning];
   const bound = { earliest: 'since', latest: 'until' }[own];
   const said = bound ? t(`import.${bound}`, { time: read }) : read;
-  const made = side ? `${t(`import.side.${side}`)}: ${said}` : said;
-  return meaning === 'ignored' || made === raw ? '' : withDecimals(made);
-}
-
-/** Return what was read, its one number with the decimals of the language. */
-function withDecimals(made) {
-  const sign = (0.5).toLocaleString(language()).charAt(1);
-  return made.replace(/^([^\d.,]*\d+)\.(\d+[^\d.,]*)$/, `$1${sign}$2`);
+  const made = withDecimals(side ? `${t(`import.side.${side}`)}: ${said}` : said);
+  return meaning === 'ignored' || made === raw || said === raw ? '' : made;
 }
 
 function text(value) {

@@ -1,6 +1,7 @@
 /** The windows of a customer: one or several, one after another. */
 
 import { timeWindow } from './format.js';
+import { t } from '../texts.js';
 
 /** Return a customer's windows, as far as any is stated. */
 export function windowsOf(customer) {
@@ -18,6 +19,11 @@ export function windowAt(customer, time) {
 /** Return windows such as `8:00 to 9:00, from 14:00`, or `any time`. */
 export function windowsInWords(windows) {
   return windows.length ? windows.map(timeWindow).join(', ') : timeWindow(null);
+}
+
+/** Return windows such as `8:00\u20139:00`, which leave names in a table more room. */
+export function windowsInCell(windows) {
+  return windows.length ? windowsInWords(windows).replaceAll(` ${t('format.to')} `, '\u2013') : '';
 }
 
 /** Return a customer with other windows; `time_windows` is stated only where there are several. */

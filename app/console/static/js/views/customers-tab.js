@@ -6,7 +6,7 @@ import { freeName } from '../core/changes.js';
 import { vehicleColour } from '../core/palette.js';
 import { doubtedPlaces, placeOf } from '../core/places.js';
 import { saidOf } from '../core/said.js';
-import { windowsInWords, windowsOf } from '../core/windows.js';
+import { windowsInCell, windowsOf } from '../core/windows.js';
 import { nameOfVehicle } from '../core/vehicle-labels.js';
 import { html, useMemo, useState } from '../libraries.js';
 import { useStore } from '../store.js';
@@ -141,7 +141,7 @@ function CustomerRow({
       ${amounts(customer.demand ?? [])}</td>`}
     ${columns.window && html`<td
       ...${cell(customer.time_windows ? 'time_windows' : 'time_window')}>
-      ${windowsOf(customer).length > 0 && short(windowsInWords(windowsOf(customer)))}</td>`}
+      ${windowsInCell(windowsOf(customer))}</td>`}
     ${columns.by && html`<td ...${cell('served_by')}
       class=${`roomy ${errors?.has('served_by') ? 'invalid' : ''}`}>
       ${t(`customers.by.${customer.served_by ?? 'either'}`)}</td>`}
@@ -150,11 +150,6 @@ function CustomerRow({
         class=${`news ${said.kind}`}>${said.text}</small>`}${late && html`<small
         >${late}</small>`}${halt?.alternative && html`<small>${halt.alternative}</small>`}</td>`}
     </tr>`;
-}
-
-/** Return windows with dashes, so that names have more room. */
-function short(windows) {
-  return windows.replaceAll(` ${t('format.to')} `, '\u2013');
 }
 
 function addCustomer(request) {

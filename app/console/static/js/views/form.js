@@ -1,7 +1,7 @@
 /** Forms made from the API's schema, with units, descriptions and errors at their fields. */
 
 import { freeName } from '../core/changes.js';
-import { clock, parseClock, parseNumber } from '../core/format.js';
+import { clock, parseClock, parseNumber, withDecimals } from '../core/format.js';
 import { getIn, keyOf, pathOf, removeIn, setIn } from '../core/paths.js';
 import { assumptionIn, presetOf, withEntry, withoutEntry } from '../core/presets.js';
 import {
@@ -187,6 +187,7 @@ function textOf(kind, value) {
   if (TIMES[kind] && typeof value === 'number') return TIMES[kind].show(value);
   if (kind === 'numbers' && !Array.isArray(value)) return value.address ?? '';
   if (kind === 'durations') return value.map(durationText).join(', ');
+  if (kind === 'number') return withDecimals(String(value));
   return kind === 'numbers' || kind === 'texts' ? value.join(', ') : String(value);
 }
 

@@ -2,14 +2,13 @@
 
 import { indexOf, shownPlan } from '../actions.js';
 import { noteOf } from '../core/describe.js';
-import {
-  amounts, clock, duration, km, money, number, percent, timeWindow,
-} from '../core/format.js';
+import { amounts, clock, duration, km, money, number, percent } from '../core/format.js';
 import { partsOf } from '../core/plan.js';
 import { vehicleColour } from '../core/palette.js';
 import { customersOf } from '../core/replanning.js';
 import { nameOfVehicle, titleOfVehicle } from '../core/vehicle-labels.js';
 import { isVisit } from '../core/visits.js';
+import { windowsInCell } from '../core/windows.js';
 import { html, useEffect, useState } from '../libraries.js';
 import { lock } from '../living.js';
 import { useStore } from '../store.js';
@@ -153,7 +152,7 @@ function Trip({ index, trip }) {
 
 /** Return the window of a halt in words, an empty text without one. */
 function windowOf({ window }) {
-  return window && (window.earliest > 0 || window.latest != null) ? timeWindow(window) : '';
+  return window && (window.earliest > 0 || window.latest != null) ? windowsInCell([window]) : '';
 }
 
 function Stop({ index, halt, selection, hovered, columns }) {
