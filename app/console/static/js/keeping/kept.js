@@ -267,7 +267,7 @@ export function tokenInAddress() {
 
 /** Show the plan of a link; it is looked at, and not this browser's. */
 export async function viewShared(token) {
-  show(await withLines(await api.getSharedPlan(token)), { viewing: token });
+  show(await api.getSharedPlan(token), { viewing: token });
   const first = store.get().request;
   const unsubscribe = store.subscribe(({ request, viewing }) => {
     if (viewing !== token) unsubscribe();
