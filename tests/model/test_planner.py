@@ -18,14 +18,15 @@ from model.solution import Route
 from model.together.pulling import nobody_served
 from training.instances import VARIANTS, generate
 from training.variants import InstanceConfig
+from tests.seeds import often
 
 pytestmark = pytest.mark.slow
 
 WEIGHTS = Path(__file__).parents[2] / "model" / "weights"
 POLICIES = sorted(folder.name for folder in WEIGHTS.iterdir())
-NUM_DECODED = 300
-NUM_IMPROVED = 160
-NUM_ENDED = 60
+NUM_DECODED = often(300)
+NUM_IMPROVED = often(160)
+NUM_ENDED = often(60)
 TIME_LIMIT = 0.02
 SPOILED = InstanceConfig(spoiled=1.0, max_spoiled=0.5)
 
@@ -69,7 +70,7 @@ def test_every_decoded_plan_of_random_problems_passes_the_checker(planner: Plann
         assert result.decoded_cost == result.final_cost
         assert result.deterministic
         unassigned += len(result.solution.unassigned)
-    assert unassigned > 25
+    assert unassigned > often(25)
 
 
 def test_every_improved_plan_of_random_problems_is_legal_and_no_dearer(planner: Planner) -> None:
@@ -83,7 +84,7 @@ def test_every_improved_plan_of_random_problems_is_legal_and_no_dearer(planner: 
         assert result.deterministic
         cheaper += result.final_cost < result.decoded_cost * (1 - 1e-9)
         unassigned += len(result.solution.unassigned)
-    assert unassigned > 8
+    assert unassigned > often(8)
     assert cheaper > NUM_IMPROVED / 2
 
 

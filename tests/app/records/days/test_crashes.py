@@ -17,7 +17,7 @@ from app.serving.settings import Settings
 from model.planner import PlanResult
 from model.problem import Problem
 from tests.app.records.days.living import (
-    begun, clock, order, plan_of, planned, served_by, standing, told,
+    PROBLEM, begun, clock, order, plan_of, planned, served_by, standing, told,
 )
 from tests.app.conftest import SearchingPlanner, ready, serving
 from tests.app.records.jobs.served import Served
@@ -106,7 +106,9 @@ def test_day_whose_process_dies_is_planned_again_some_times(
         tmp_path: Path, monkeypatch: pytest.MonkeyPatch, deaths: int, fails: bool) -> None:
     monkeypatch.setattr("app.records.days.runner.LEASE", 0.2)
     with serving(DyingPlanner(), Settings(data_dir=tmp_path, role="api")) as client:
-        day = begun(ready(client))
+        # Plans end by their turns: on a busy machine little is searched in the usual time.
+        day = begun(ready(client), {**PROBLEM, "options": {"search_iterations": 1000}},
+                    plan_within=60)
         DyingPlanner.deaths = deaths
         client.post(f"/days/{day}/events", json=[{"event_id": "e", "at": 1, **order("G", 1, 1)}])
         eventually(lambda: standing(client, day).is_planned)

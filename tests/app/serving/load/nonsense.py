@@ -141,7 +141,7 @@ class Watch:
         waited = 0
         for process in (self._process, Path("/proc/self")):
             for thread in process.glob("task/*/schedstat"):
-                with suppress(OSError):  # that has ended
+                with suppress(OSError, IndexError):  # that has ended
                     waited += int(thread.read_text().split()[1])
         return waited / 1e9
 
