@@ -26,6 +26,33 @@ Int free_until(const ProblemData& data, const Fleet& fleet, Int slot, Int launch
     return until;
 }
 
+// From which stop on and up to which a drone is aboard.
+struct AboardBetween {
+    Int since = far, until = none;
+};
+
+// Returns between which stops drones of a row are aboard as the truck leaves stop `p`; between none
+// if all fly then. Of several, all that one of them is.
+AboardBetween aboard_behind(const ProblemData& data, const Fleet& fleet, Int slot, Int p, Int row) {
+    const Route& route = fleet.route[slot];
+    const Int number = first_drone(data.type, route.type, row);
+    AboardBetween some;
+    for (Int drone = number; drone < number + data.type[row].drones; ++drone) {
+        AboardBetween aboard{0, route.length};
+        for (const Sortie& sortie : sorties_of(fleet, slot)) {
+            if (sortie.drone != drone) continue;
+            if (sortie.launch > p) {
+                aboard.until = sortie.launch;
+                break;
+            }
+            aboard.since = std::max(aboard.since, Int{sortie.recovery});
+        }
+        if (aboard.since > p) continue;
+        some = {std::min(some.since, aboard.since), std::max(some.until, aboard.until)};
+    }
+    return some;
+}
+
 // What is looked up once for sorties to a customer by drones of a row on a route.
 struct FlownTo {
     FlownTo(const Insertion& insertion, Int of_slot, Int row_of)
@@ -155,8 +182,9 @@ class Halting : FlownTo {
 public:
     using FlownTo::FlownTo;
 
-    // Lists those for which the truck stops at a launch site behind stop `p`.
-    void offer_behind(Int p, Int halt) const {
+    // Lists those for which the truck stops at a launch site behind stop `p`, with a drone that is
+    // `aboard` there.
+    void offer_behind(Int p, Int halt, const AboardBetween& aboard) const {
         if (!may_halt(data.halts, k, halt) || !in_range(data, type, halt, node) ||
             !is_served_by(p, data.halt_after[halt])) {
             return;
@@ -182,8 +210,8 @@ public:
                   recovery_end(type, longer + loop.duration()));
         }
         if (!crosses) return;
-        offer_landings(p, halt, out, driven, longer);
-        const Int last = std::min(trip.last, p + max_span);
+        offer_landings(p, halt, out, driven, longer, aboard.until);
+        const Int last = std::min({trip.last, aboard.until, p + max_span});
         for (Int recovery = p + 1; recovery <= last; ++recovery) {
             const Stop& to = stops[recovery];
             const Leg back = leg_to(onward, to.node);
@@ -193,7 +221,8 @@ public:
             offer({p, recovery, halt, nowhere}, flight, driven, out.distance + back.distance,
                   std::max(longer, begun + flight.duration() - to.leave - idle));
         }
-        for (Int launch = std::max(trip.first, p - max_span + 1); launch <= p; ++launch) {
+        for (Int launch = std::max({trip.first, aboard.since, p - max_span + 1}); launch <= p;
+             ++launch) {
             const Stop& from = stops[launch];
             if (!may_end_at(from)) continue;
             const Leg way = leg_from(inward, from.node);
@@ -207,11 +236,14 @@ public:
 private:
     // Lists those from a launch site behind stop `p` to one more behind a later stop.
     //
-    // `driven` and `longer` are what the first stop costs, and how much longer it takes.
-    void offer_landings(Int p, Int halt, const Leg& out, double driven, Int longer) const {
+    // `driven` and `longer` are what the first stop costs, and how much longer it takes; a drone is
+    // aboard up to stop `until`.
+    void offer_landings(Int p, Int halt, const Leg& out, double driven, Int longer,
+                        Int until) const {
         const TravelLegs legs = legs_of(data.leg, data.type[k].travel);
         const View<const std::int32_t, 1> near = nearest_halts(data, node);
-        const Int last = std::min(searcher.now.trip(slot, stops[p].trip).last - 1, p + max_span);
+        const Int last =
+            std::min({searcher.now.trip(slot, stops[p].trip).last, until, p + max_span + 1}) - 1;
         for (Int rank = 0; rank < std::min(max_landings, near.size()); ++rank) {
             const Int landing = near[rank];
             if (landing < 0) break;
@@ -285,9 +317,13 @@ void offer_halts(const Insertion& insertion, Int slot, Int first, Int last) {
             continue;
         }
         const Halting halting(insertion, slot, row);
-        for (const Int halt : nearest_halts(data, node)) {
-            if (halt < 0) break;
-            for (Int p = first; p <= last; ++p) halting.offer_behind(p, halt);
+        for (Int p = first; p <= last; ++p) {
+            const AboardBetween aboard = aboard_behind(data, now, slot, p, row);
+            if (aboard.until < aboard.since) continue;
+            for (const Int halt : nearest_halts(data, node)) {
+                if (halt < 0) break;
+                halting.offer_behind(p, halt, aboard);
+            }
         }
     }
 }
