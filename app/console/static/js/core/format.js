@@ -128,9 +128,7 @@ export function duration(seconds) {
 
 /** Return a number with thousands set apart and at most `digits` decimals. */
 export function number(value, digits = 2) {
-  const text = Math.abs(value).toLocaleString(language(), {
-    maximumFractionDigits: digits,
-  });
+  const text = Math.abs(value).toLocaleString(language(), { maximumFractionDigits: digits });
   return value < 0 && text !== '0' ? MINUS + text : text;
 }
 

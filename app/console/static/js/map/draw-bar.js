@@ -31,8 +31,7 @@ export function DrawBar() {
   return html`<div class="draw-bar">
     <button type="button" aria-expanded=${open} onClick=${toggle} title=${t('draw.title')}
       aria-label=${t('draw.title')}><${Icon} name="pencil" /></button>
-    ${
-      open &&
+    ${open &&
       html`<div class="draw-tools" role="group" aria-label=${t('draw.tools')}>
       ${tools.map(
         (key) => html`<button type="button" key=${key}

@@ -232,9 +232,7 @@ export function zoneShapes(request, dark) {
   const colour = dark ? '#ff9d94' : '#a8321f';
   return zoneAreas(request).map((area) => {
     const { rings, center, radius } = area;
-    const style = {
-      color: colour, weight: 1, fillColor: colour, fillOpacity: 0.08,
-    };
+    const style = { color: colour, weight: 1, fillColor: colour, fillOpacity: 0.08 };
     const shape = rings
       ? L.polygon(rings.map((ring) => ring.map(latLng)), style)
       : L.circle(latLng(center), { ...style, radius });

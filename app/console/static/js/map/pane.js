@@ -42,8 +42,7 @@ export function MapPane() {
         <button type="button" title=${t('map.fit')} aria-label=${t('map.fit')}
           onClick=${() => first?.fit()}><${Icon} name="maximize" /></button>
         <${Ground} request=${request} />
-        ${
-          beside &&
+        ${beside &&
           html`<button type="button" aria-pressed=${split} onClick=${() => setSplit(!split)}>
           ${split ? t('map.one') : t('map.beside')}</button>`
         }
@@ -53,8 +52,7 @@ export function MapPane() {
       ${!hasLocations(request)
         && html`<p class="map-note">${request.matrices ? t('map.none') : t('map.empty')}</p>`}
     </div>
-    ${
-      split &&
+    ${split &&
       beside &&
       html`<div class="map-frame">
       <p class="map-title">${t('map.before', { name: beside.name })}</p>

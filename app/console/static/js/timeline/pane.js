@@ -54,12 +54,10 @@ export function TimelinePane() {
           onClick=${() => layOut({ timelineFolded: !folded })} />
       </span>
     </div>
-    ${
-      !folded && (rows.length
+    ${!folded && (rows.length
         ? html`<${Rows} index=${index} rows=${rows} range=${shown} whole=${whole}
       setRange=${setRange} parts=${parts} now=${nowOf(entry, request)} />`
-        : html`<p class="empty">${
-          entry ? t('timeline.unused') : t('timeline.nothing')}</p>`)
+        : html`<p class="empty">${entry ? t('timeline.unused') : t('timeline.nothing')}</p>`)
     }
   </section>`;
 }

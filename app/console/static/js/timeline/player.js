@@ -56,8 +56,7 @@ export function Player({ index }) {
       ${SPEEDS.map((value) => html`<option key=${value}
         value=${value}>${value / 60} min/s</option>`)}
     </select>
-    ${
-      time !== null &&
+    ${time !== null &&
       html`${!isLive && html`<button type="button" onClick=${replanFromClock}>
         ${t('player.replan')}</button>`}
       <button type="button" class="quiet"

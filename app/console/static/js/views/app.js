@@ -30,8 +30,7 @@ export function App() {
     ${ready ? html`<${Rail} />` : html`<nav class="rail"></nav>`}
     <${Header} />
     <${Notice} />
-    ${
-      ready
+    ${ready
         ? html`${isWall ? html`<aside class="panel"><${LiveDay} /></aside>` : html`<${Panel} />`}
           <${MapPane} /><${TimelinePane} />`
         : html`<p class="loading maps">${t('app.loading')}</p>`
@@ -61,16 +60,14 @@ function Notice() {
   if (failure) {
     return html`<div class="notice" role="alert">
       <div><strong>${failure.title}.</strong> <${Plain} message=${failure.detail} />
-        ${
-          errors.length > 0 &&
+        ${errors.length > 0 &&
           html`<ul>${errors.slice(0, MOST_LISTED).map(
             (error) => html`
           <li key=${error.path + error.code}><button type="button" class="link"
             onClick=${() => goTo(error.keys)}>${whereInWords(request, error.keys)}</button>
             ${' '}<${Said} ...${error} /></li>`,
           )}
-          ${
-            errors.length > MOST_LISTED &&
+          ${errors.length > MOST_LISTED &&
             html`<li>${t('app.more', { count: errors.length - MOST_LISTED })}</li>`
           }</ul>`
         }

@@ -28,8 +28,7 @@ export function ChangesTab() {
   const entry = useStore(shownPlan);
   const former = useStore(besidePlan);
   return html`<${Changes} /><${Plans} />
-    ${
-      entry && former
+    ${entry && former
         ? html`<${Differences} entry=${entry} former=${former} />`
         : html`<p class="help">${t('whatIf.help')}</p>`
     }`;
@@ -154,8 +153,7 @@ export function Differences({ entry, former }) {
   return html`<section class="section"
     id="differences"><h3>${t('whatIf.besideOf', { name: entry.name, former: former.name })}</h3>
     <p id="plan-difference"><strong>${planDifference(former, entry)}</strong></p>
-    ${
-      changes.length > 0
+    ${changes.length > 0
         ? html`<ul>${changes.slice(0, MOST_LISTED).map(
             (change) => html`<li key=${change.path}><${Change} ...${change} /></li>`,
           )}

@@ -56,8 +56,7 @@ function Sheet({ vehicle, parts, isGeographic, link }) {
       <tbody>${trip.stops.map(
         (halt, position) => html`<tr key=${halt.key}><td>${position || ''}</td>
         <td>${clock(halt.arrival)}</td><td>${clock(halt.departure)}</td>
-        <td><strong>${halt.id}</strong>${
-          noteOf(halt) && html` <small>${noteOf(halt)}</small>`
+        <td><strong>${halt.id}</strong>${noteOf(halt) && html` <small>${noteOf(halt)}</small>`
         }${place(halt, isGeographic)}</td>
         <td>${isVisit(halt) ? timeWindow(halt.window) : ''}</td>
         <td>${isVisit(halt) ? handed(halt.source) : ''}</td>

@@ -127,8 +127,7 @@ function VehicleType({ type, position, request, isNew }) {
   const skip = [...(request.matrices ? [] : ['profile']), ...needlessFields(type)];
   const card = useOpening(position === 0 || isNew || errors > 0);
   return html`<details class="card" ref=${card}>
-    <summary><strong>${type.id}</strong> ${
-      errors > 0 &&
+    <summary><strong>${type.id}</strong> ${errors > 0 &&
       html`<span class="error">
       ${t('fleet.errors', { count: errors })}</span>`
     }<span class="right">${t('header.vehicles', { count: type.count })}, ${
@@ -137,8 +136,7 @@ function VehicleType({ type, position, request, isNew }) {
       <${RuledFields} schema=${schemas.VehicleTypeInput} keys=${['fleet', position]}
         everyday=${EVERYDAY} topics=${TOPICS} request=${request} onChange=${edit}
         choices=${choices} skip=${skip} />
-      ${
-        request.fleet.length > 1 &&
+      ${request.fleet.length > 1 &&
         html`<div class="buttons"><button type="button" onClick=${() =>
           edit(removeIn(request, ['fleet', position]))}>
           ${t('fleet.remove', { id: type.id })}</button></div>`

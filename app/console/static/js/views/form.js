@@ -129,8 +129,7 @@ function PlainField({
         invalid=${isWrong} />
     <span class="unit">${TIMES[kind] ? '' : unitOf(schema)}</span>
     ${help}
-    ${
-      isWrong &&
+    ${isWrong &&
       html`<div class="error" id=${`${id}-error`}>${
         problem ?? errors.map((error) => html`<${Said} key=${error.code} ...${error} />`)
       }</div>`
@@ -254,16 +253,14 @@ function ObjectField({ name, schema, keys, request, onChange, nullable, choices,
         ? setIn(request, keys, presetOf(name, request, keys) ?? blank(schemas, schema))
         : removeIn(request, keys));
   return html`<fieldset class="group">
-    <legend>${
-      nullable
+    <legend>${nullable
         ? html`<label><input type="checkbox" id=${idOf(keys)} checked=${present}
       onChange=${toggle} /> ${labelOf(name)}</label>`
         : labelOf(name)
     }</legend>
     ${help}
     <p class="assumed" role="status">${present ? assumptionIn(name, request, value) : ''}</p>
-    ${
-      (present || !nullable) &&
+    ${(present || !nullable) &&
       html`<${Fields} schema=${schema} keys=${keys} request=${request}
       onChange=${onChange} choices=${choices} />`
     }

@@ -129,8 +129,7 @@ function Result() {
     ${entry && html`<${Totals} entry=${entry} />`}
     ${run.state !== 'idle' && html`<span>${
       run.waiting ?? t(`run.${waits ? 'decoding' : run.state}`)}</span>`}
-    ${
-      ['decoding', 'improving'].includes(run.state) &&
+    ${['decoding', 'improving'].includes(run.state) &&
       run.limit?.isChosen &&
       run.limit.seconds > MOST_UNTOLD &&
       html`<span id="chosen-limit">${t('solve.upTo', {
@@ -139,14 +138,12 @@ function Result() {
       })}</span>`
     }
     ${waits && entry && html`<span class="stale">${t('run.meanwhile')}</span>`}
-    ${
-      run.state === 'improving' &&
+    ${run.state === 'improving' &&
       html`<span class="progress" role="progressbar" aria-label=${t('run.search')}
       aria-valuenow=${Math.round((run.share ?? 0) * 100)} aria-valuemin="0" aria-valuemax="100">
       <span style=${{ width: `${(run.share ?? 0) * 100}%` }}></span></span>`
     }
-    ${
-      entry &&
+    ${entry &&
       stale &&
       !isLive &&
       run.state === 'idle' &&

@@ -77,8 +77,7 @@ function Errors({ importing: { reply, choices } }) {
     )}
     ${more > 0 && html`<li>${t('app.more', { count: more })}</li>`}
     </ul></div>
-    ${
-      inRows &&
+    ${inRows &&
       html`<label class="check"><input type="checkbox"
         checked=${Boolean(choices.leave_out_errors)} onChange=${(event) =>
           change({ choices: { ...choices, leave_out_errors: event.target.checked } })} />

@@ -18,8 +18,7 @@ export function ImportFields({ importing: { reply, texts, choices, corrections }
   const fields = (listed) => html`<div class="import-fields">${listed.map(
     (field) => html`<${TextField} key=${field.name} field=${field} reply=${reply}
       value=${texts[field.name] ?? ''} isWrong=${wrong.includes(field.name)} />`,
-  )}${
-    listed === FIELDS &&
+  )}${listed === FIELDS &&
     asksDay &&
     html`<label>${t('import.day')}<input type="date" value=${choices.day ?? reply.day ?? ''}
       onChange=${(event) =>

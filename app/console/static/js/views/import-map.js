@@ -30,14 +30,12 @@ export function ImportMap({ importing }) {
       </button>
       ${placing && placing !== 'depot' && html`<${Typed} key=${placing.address}
         address=${placing.address} />`}
-      ${
-        addresses.length > 0 &&
+      ${addresses.length > 0 &&
         html`<p><strong>${t('import.unplaced', { count: open })}</strong></p>
         <ul>${addresses.map((entry) => html`<${Address} key=${entry.address} ...${entry}
           isPlaced=${Boolean(places[entry.address])}
           isActive=${placing?.address === entry.address} />`)}</ul>
-        ${
-          open > 0 &&
+        ${open > 0 &&
           !finds &&
           html`<label class="check"><input type="checkbox" checked=${leavesUnplaced}
             onChange=${(event) => leaveUnplaced(event.target.checked)} />

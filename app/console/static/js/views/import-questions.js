@@ -12,8 +12,7 @@ export function Questions({ importing: { reply, mapping } }) {
   const open = questions.filter(({ is_answered: isAnswered }) => !isAnswered).length;
   return html`<section class="import-questions" aria-labelledby="import-questions-title">
     <h3 id="import-questions-title">${t('import.questions', { count: questions.length })}</h3>
-    <p class="help">${
-      open ? t('import.questionsOpen', { count: open }) : t('import.questionsDone')
+    <p class="help">${open ? t('import.questionsOpen', { count: open }) : t('import.questionsDone')
     }</p>
     <ol>${questions.map((question, at) => html`<${Question} key=${question.id} at=${at}
       question=${question} given=${mapping.answers?.[question.id]} />`)}</ol></section>`;

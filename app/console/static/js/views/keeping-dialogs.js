@@ -48,8 +48,7 @@ function Plans({ plans, drafts, failure }) {
     <ul class="kept-list" aria-label=${t('kept.plans')}>${plans.map(
       (plan) => html`<${Kept} key=${plan.where + plan.id} plan=${plan} />`,
     )}</ul>
-    ${
-      drafts.length > 0 &&
+    ${drafts.length > 0 &&
       html`<h3>${t('kept.drafts')}</h3>
       <ul class="kept-list" aria-label=${t('kept.draftsLabel')}>${drafts.map(
         (draft) => html`<${Draft} key=${draft.id} draft=${draft} />`,
@@ -72,8 +71,7 @@ function Kept({ plan }) {
       <button type="button" disabled=${cost === null || !hasPlan}
         aria-label=${t('kept.compareOf', { name })}
         onClick=${() => kept.putBeside(plan)}>${t('kept.compare')}</button>
-      ${
-        where === 'service' &&
+      ${where === 'service' &&
         html`<button type="button" aria-label=${t('kept.share', { name })}
         onClick=${() => kept.openLinks(plan)}>${t('kept.shareIt')}</button>`
       }
@@ -98,8 +96,7 @@ function Draft({ draft }) {
   const { id, name, changedAt, isOpen } = draft;
   return html`<li><div class="kept-what"><strong>${name}</strong>
       <span class="help">${contentOf(draft)} ${when(changedAt)}</span></div>
-    ${
-      isOpen
+    ${isOpen
         ? html`<span class="help">${t('kept.openElsewhere')}</span>`
         : html`<div class="buttons"><button type="button" aria-label=${t('kept.goOnOf', { name })}
           onClick=${() => kept.openDraft(id)}>${t('kept.goOn')}</button>
@@ -148,8 +145,7 @@ function Conflict({ failure }) {
 function Links({ links, url, busy, failure }) {
   return html`<${Failure} failure=${failure} />
     <p>${t('kept.linkHelp')}</p>
-    ${
-      url &&
+    ${url &&
       html`<label>${t('kept.linkOnce')} <input type="text" id="share-url" readonly value=${url}
         onFocus=${(event) => event.target.select()} /></label>
       <${Copy} text=${url} />`

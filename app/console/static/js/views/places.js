@@ -61,8 +61,7 @@ export function Places({ request }) {
     <div class="inside">
       <${Field} name="coordinate_system" schema=${properties.coordinate_system}
         keys=${['coordinate_system']} request=${request} onChange=${edit} />
-      ${
-        request.coordinate_system !== 'geographic' &&
+      ${request.coordinate_system !== 'geographic' &&
         ['planar_unit', 'planar_rounding'].map(
           (name) => html`<${Field} key=${name} name=${name}
         schema=${properties[name]} keys=${[name]} request=${request}
@@ -78,8 +77,7 @@ export function Places({ request }) {
         <legend>${t('where.depot', { id: String(position + 1) })}</legend>
         <${Fields} schema=${schemas.DepotInput} keys=${['depots', position]} request=${request}
           onChange=${edit} skip=${request.matrices ? [] : ['location_index']} />
-        ${
-          request.depots.length > 1 &&
+        ${request.depots.length > 1 &&
           html`<div class="buttons"><button type="button" onClick=${() =>
             edit(removeIn(request, ['depots', position]))}>
             ${t('customers.removeDepot')}</button></div>`

@@ -17,8 +17,7 @@ export function ProblemName() {
   }, [name, mark]);
   return html`<div class="problem-name">
     <button type="button" class="quiet" id="problem-name" title=${t('header.rename', { name })}
-      onClick=${askName}><span class="name">${name}</span>${
-        unsaved &&
+      onClick=${askName}><span class="name">${name}</span>${unsaved &&
         html`<span class="unsaved" role="img" aria-label=${t('header.notSaved')}
           title=${t('header.notSaved')}>\u2022</span>`
       }</button>

@@ -87,8 +87,7 @@ function Vehicle({ index, vehicle }) {
           : []),
         money(route.cost),
       ].join(', ')}</span></summary>
-    ${
-      open &&
+    ${open &&
       html`<div class="inside"><${IdleDrones} vehicle=${vehicle.name} />
         <${LockAll} vehicle=${vehicle} />${vehicle.trips.map(
         (trip) => html`<${Trip} key=${trip.key}

@@ -21,8 +21,7 @@ export function ScenariosTab() {
   const scenario = useStore((state) => state.scenario);
   return html`<${SecondsEach} /><${Compare} /><${Sweep} />
     ${scenario && html`<${Running} scenario=${scenario} />`}
-    ${
-      scenario?.result &&
+    ${scenario?.result &&
       (scenario.kind === 'compare'
         ? html`<${CompareResult} scenario=${scenario} />`
         : html`<${SweepResult} scenario=${scenario} />`)
@@ -139,8 +138,7 @@ function Sweep() {
         ${index > 0 && html`<option value="">${t('scenario.nothing')}</option>`}
         ${fields.map(({ path, label }) => html`<option key=${path}
           value=${path}>${label}</option>`)}</select>
-      ${
-        axis.path &&
+      ${axis.path &&
         html`<input type="text" value=${axis.text} 
         aria-label=${t('scenario.values', { number: index + 1 })}
         aria-invalid=${readValues(axis.text, unit(axis)) === null}
@@ -159,8 +157,7 @@ function Running({ scenario }) {
   return html`<section class="section" aria-live="polite"><div class="buttons"><span
     id="scenario-state">
       ${t(`scenario.kind.${scenario.kind}`)}: ${t(`scenario.state.${scenario.state}`)}</span>
-    ${
-      !over &&
+    ${!over &&
       html`<span class="progress" role="progressbar" aria-label=${t('scenario.progress')}
       aria-valuemin="0" aria-valuemax="100" aria-valuenow=${Math.round(scenario.progress * 100)}>
       <span style=${{ width: `${scenario.progress * 100}%` }}></span></span>
@@ -191,8 +188,7 @@ function CompareResult({ scenario: { body, result } }) {
     <tbody>
       <tr><th scope="row"><strong>${t('scenario.total')}</strong></th>${entries.map(
         ([fleet, { cost, error }]) => html`<td
-        key=${fleet} class="number">${
-          cost
+        key=${fleet} class="number">${cost
             ? html`<strong class=${cost.total === least ? 'delta-good' : ''}>
         ${money(cost.total)}</strong>`
             : (error ?? t('scenario.noPlan'))
@@ -211,8 +207,7 @@ function CompareResult({ scenario: { body, result } }) {
       ${line(t('scenario.unassigned'), ({ unassigned }) => number(unassigned, 0))}
       <tr><th scope="row"></th>${entries.map(
         ([fleet, { plan }]) => html`<td key=${fleet} class="number">
-        ${
-          plan &&
+        ${plan &&
           html`<button type="button" aria-label=${t('scenario.showOf', { fleet })}
           onClick=${() =>
             showScenarioPlan({ ...body.base, fleet: body.fleets[fleet] }, plan, fleet)}>

@@ -84,8 +84,7 @@ function Curve() {
     chart?.setData([points.map(({ seconds }) => seconds), points.map(({ cost }) => cost)]);
   }, [points, chart]);
   return html`<section class="section"><h3>${t('solve.curve')}</h3>
-    <p>${
-      last ? fallen(points[0], last) : t('solve.noCurve')
+    <p>${last ? fallen(points[0], last) : t('solve.noCurve')
     }${hasPenalty && ` ${t('curve.penaltyWithin')}`}</p>
     <div class="curve" ref=${element} role="img" aria-label=${t('solve.curveLabel')}></div>
   </section>`;

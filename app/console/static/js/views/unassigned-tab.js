@@ -85,13 +85,11 @@ function Price({ group, entry }) {
     price,
     group,
   )}</span>
-    ${
-      !price &&
+    ${!price &&
       html`<button type="button" onClick=${() => priceGroup(entry, group)}>
         ${t('unassigned.whatCosts')}</button>`
     }
-    ${
-      group.members.length > 1 &&
+    ${group.members.length > 1 &&
       html`<button type="button" class="primary" disabled=${request !== entry.request}
       aria-label=${[t('unassigned.applyAllOf', {
         count: group.members.length,
@@ -141,8 +139,7 @@ function Remedy({ remedy, of, told, request }) {
     plan();
   };
   return html`<div class="buttons"><span>${sentenceOf(remedy, told)}.</span>
-    ${
-      changed &&
+    ${changed &&
       html`<button type="button" onClick=${apply}
       aria-label=${[t('unassigned.applyOf', { remedy: remedyInWords(remedy, told) }), ...of]
         .join(', ')}>

@@ -34,8 +34,7 @@ export function WarningsChip() {
 
 function Warning({ request, warning }) {
   const { keys } = warning;
-  return html`<li>${
-    keys.length > 0 &&
+  return html`<li>${keys.length > 0 &&
     html`<button type="button" class="link" popovertarget="warnings" popovertargetaction="hide"
       onClick=${() => goTo(keys)}>${whereInWords(request, keys)}</button> `
   }<${Said} ...${warning} /></li>`;

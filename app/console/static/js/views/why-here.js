@@ -54,8 +54,7 @@ function Told({ told, customer, id, request }) {
       (limit) => html`<li key=${limit.rule + limit.at}>${
         bindingInWords(limit, told.shipment ?? limit.at)}</li>`,
     )}</ul>`}
-    <p class="help">${t('why.ask.others')}${
-      told.complete ? '' : ` ${t('why.ask.noTime')}`}</p>`;
+    <p class="help">${t('why.ask.others')}${told.complete ? '' : ` ${t('why.ask.noTime')}`}</p>`;
 }
 
 function Alternatives({ rows, id }) {
