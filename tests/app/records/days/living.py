@@ -18,12 +18,16 @@ PROBLEM: Data = {
                                       "E": [-3, 0], "F": [-5, 0]}.items()],
     "fleet": [{"id": "van", "count": 3, "capacity": [2], "speed_kmh": 36,
                "max_trips": 2, "costs": {"fixed": 10}}],
+    "options": {"search_iterations": 1000},
 }
+"""Planned by turns, for which `begun` leaves time: little is searched in the usual time on a busy
+machine."""
 
 
 def begun(client: httpx.Client, problem: Data = PROBLEM, **more: Any) -> str:
     """Begin a day whose first plan is there, and return its id."""
-    reply = client.post("/days", json={"problem": problem, "clock": 0, **more})
+    reply = client.post("/days", json={
+        "problem": problem, "clock": 0, "plan_within": 60, **more})
     assert reply.status_code == 201, reply.text
     day = DayReply.model_validate_json(reply.text)
     planned(client, day.id)
