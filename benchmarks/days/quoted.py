@@ -24,6 +24,12 @@ from benchmarks.days.disturbed import (
 SLOTS = 8
 
 
+def _slots(draw: random.Random, now: float) -> list[Data]:
+    """Return windows that an order may ask for."""
+    return [{"earliest": (begins := round(draw.uniform(now, END - WINDOW / 2))),
+             "latest": begins + draw.choice([1800, 3600, WINDOW])} for _ in range(SLOTS)]
+
+
 def lived(dispatcher: Dispatcher, seed: int, orders: int, vans: int) -> Data:
     """Live a day whose orders take slots, and return what came of them."""
     draw = random.Random(seed)
@@ -47,8 +53,7 @@ def lived(dispatcher: Dispatcher, seed: int, orders: int, vans: int) -> Data:
             told, plan = [], dispatcher.planned(name)
         while wanted and wanted[0][0] <= now:
             order = known[wanted.pop(0)[1]]
-            slots = [{"earliest": (begins := round(draw.uniform(now, END - WINDOW / 2))),
-                      "latest": begins + draw.choice([1800, 3600, WINDOW])} for _ in range(SLOTS)]
+            slots = _slots(draw, now)
             began, cpu = time.perf_counter(), time.thread_time()
             quote = dispatcher.quote(name, {key: each for key, each in order.items()
                                             if key != "time_window"}, slots)

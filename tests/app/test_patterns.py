@@ -44,6 +44,9 @@ QUICK = 0.0001
 
 MOST_PER_CELL = 0.1
 
+LOOKS = 30
+"""At a longer text, all of which take too long where all splits are tried."""
+
 GROWTH = 9.0
 """Of the time for a text four times as long; 16 where all splits are tried."""
 
@@ -104,9 +107,9 @@ def slow_texts(work: Callable[[str], object]) -> list[str]:
     for text, parts in zip(texts(SIZE), parts_of_texts(), strict=True):
         if seconds_of(partial(work, text)) > QUICK:
             longer, short = text_of(LONGER, *parts), seconds_of(partial(work, text), 3)
-            # Most is proportional, which a first look shows.
+            # Most is proportional, which a first look shows; a busy machine needs some more.
             if short > QUICK and all(seconds_of(partial(work, longer)) > GROWTH * short
-                                     for _ in range(3)):
+                                     for _ in range(LOOKS)):
                 slow.append(text[:60])
     return slow
 

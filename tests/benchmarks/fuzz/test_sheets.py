@@ -7,6 +7,7 @@ from app.formats.sheets.importing import import_file
 from app.formats.sheets.schemas import ImportSettings
 from benchmarks.fuzz.drawn_sheets import LAYOUTS, drawn, words
 from benchmarks.fuzz.sheets import READINGS, reading_of
+from tests.app.formats.sheets.told_texts import can_be_told, told
 
 SEEDS = range(48)
 
@@ -31,3 +32,9 @@ def test_a_wrong_reading_is_found() -> None:
     assert reading.startswith("wrong")
     assert wrongs[0].startswith("place")
     assert import_file(sheet.content, ImportSettings()).request is not None
+
+
+def test_all_that_is_told_of_drawn_sheets_has_texts() -> None:
+    entries = [entry for seed in range(40) for entry in told(drawn(seed).content)]
+    assert len(entries) > 40
+    assert [entry for entry in entries if not can_be_told(entry)] == []
