@@ -7,33 +7,14 @@
 namespace tandem {
 namespace {
 
-// Returns until which stop some drone of a row is free that is aboard at stop `launch`: that stop
-// alone if all are launched there, the one before if none is aboard.
-Int free_until(const ProblemData& data, const Fleet& fleet, Int slot, Int launch, Int row) {
-    const Route& route = fleet.route[slot];
-    const View<const Sortie, 1> sorties = sorties_of(fleet, slot);
-    const Int number = first_drone(data.type, route.type, row);
-    Int until = launch - 1;
-    for (Int drone = number; drone < number + data.type[row].drones; ++drone) {
-        Int free = route.length;
-        for (const Sortie& sortie : sorties) {
-            if (sortie.drone != drone || sortie.recovery <= launch) continue;
-            free = sortie.launch < launch ? launch - 1 : sortie.launch;
-            break;
-        }
-        until = std::max(until, free);
-    }
-    return until;
-}
-
 // From which stop on and up to which a drone is aboard.
 struct AboardBetween {
     Int since = far, until = none;
 };
 
-// Returns between which stops drones of a row are aboard as the truck leaves stop `p`; between none
-// if all fly then. Of several, all that one of them is.
-AboardBetween aboard_behind(const ProblemData& data, const Fleet& fleet, Int slot, Int p, Int row) {
+// Returns between which stops drones of a row are aboard at a place of a route, in half stops;
+// between none if all fly then. Of several, all that one of them is.
+AboardBetween aboard_at(const ProblemData& data, const Fleet& fleet, Int slot, Int half, Int row) {
     const Route& route = fleet.route[slot];
     const Int number = first_drone(data.type, route.type, row);
     AboardBetween some;
@@ -41,13 +22,13 @@ AboardBetween aboard_behind(const ProblemData& data, const Fleet& fleet, Int slo
         AboardBetween aboard{0, route.length};
         for (const Sortie& sortie : sorties_of(fleet, slot)) {
             if (sortie.drone != drone) continue;
-            if (sortie.launch > p) {
-                aboard.until = sortie.launch;
+            if (2 * sortie.recovery > half) {
+                aboard.until = 2 * sortie.launch < half ? none : sortie.launch;
                 break;
             }
             aboard.since = std::max(aboard.since, Int{sortie.recovery});
         }
-        if (aboard.since > p) continue;
+        if (aboard.until == none) continue;
         some = {std::min(some.since, aboard.since), std::max(some.until, aboard.until)};
     }
     return some;
@@ -103,7 +84,7 @@ public:
         if (!front.serve(place)) return;
         const Int left = gone_by(type, from.leave);
         const Int begun = recovery_end(type, ready) - idle;
-        Int last = free_until(data, searcher.now, slot, launch, row);
+        Int last = aboard_at(data, searcher.now, slot, 2 * launch, row).until;
         const Int furthest = searcher.now.trip(slot, from.trip).last;
         last = std::min({last, furthest, crosses ? launch + max_span : launch});
         for (Int recovery = data.strategy.loops ? launch : launch + 1; recovery <= last;
@@ -318,7 +299,7 @@ void offer_halts(const Insertion& insertion, Int slot, Int first, Int last) {
         }
         const Halting halting(insertion, slot, row);
         for (Int p = first; p <= last; ++p) {
-            const AboardBetween aboard = aboard_behind(data, now, slot, p, row);
+            const AboardBetween aboard = aboard_at(data, now, slot, 2 * p + 1, row);
             if (aboard.until < aboard.since) continue;
             for (const Int halt : nearest_halts(data, node)) {
                 if (halt < 0) break;
