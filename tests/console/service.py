@@ -13,6 +13,7 @@ from unittest.mock import patch
 
 from app.cli.commands import main
 from app.plans import explaining, fitting, task
+from app.records.jobs import worker
 from app.schemas import openapi
 from model.planner import Planner, PlanOptions, PlanResult
 from model.problem import Problem
@@ -22,6 +23,10 @@ SECOND = 1.0
 TURNS, PATIENCE = 300, 30.0
 """What is made instead of a second's search, and the seconds that it may take: a busy machine comes
 as far as an idle one, which takes a twentieth of a second for a hundred customers."""
+
+POLLING = {"POLLING": 0.5, "STUDY_POLLING": 2.0, "PATIENT_POLLING": 10.0}
+"""Seconds between looks into queues, most of which are empty in tests: looking at them as often as
+others do takes a tenth of a core for as long as a service is there."""
 
 plan_in_time = Planner.plan
 
@@ -49,7 +54,8 @@ for place, name, value in (
         (Planner, "plan", plan_hurriedly),
         # However busy the machine, replies say why somebody is left out and where one fits.
         (task, "EXPLAINING", PATIENCE), (explaining, "REASONS_SECONDS", PATIENCE),
-        (fitting, "LEAST_TRYING", PATIENCE)):
+        (fitting, "LEAST_TRYING", PATIENCE),
+        *((worker, name, seconds) for name, seconds in POLLING.items())):
     setattr(place, name, value)
 
 if __name__ == "__main__":
