@@ -158,7 +158,7 @@ export function tell(...events) {
 export function untoldIn(state) {
   const { live, request } = state;
   const entry = shownPlan(state);
-  return live.base ? [...untoldOf(live.base, request),
+  return live?.base ? [...untoldOf(live.base, request),
     ...(entry?.hand ? pinsOf(indexOf(entry), entry.hand.moved) : [])] : [];
 }
 
