@@ -94,6 +94,7 @@ KEPT_PLANS = Table(
     Column("bytes", BigInteger, nullable=False),  # of the body before it is compressed
     Column("customers", Integer, nullable=False),
     Column("cost", Float),
+    Column("day", String(36)),  # whose it is, as that stands; null: it is as it was kept
     Index("kept_plans_by_owner", "owner", "changed_at", "id"),
 )
 KEPT_PLAN_BODIES = Table(

@@ -12,7 +12,7 @@ from tests.app.records.days.living import (
 )
 from tests.app.records.days.test_lateness import FAR
 from tests.console.test_everyone import findings
-from tests.console.steps import open_tab, place_of, state
+from tests.console.steps import open_example, open_tab, place_of, state
 from tests.conftest import eventually
 
 pytestmark = pytest.mark.slow
@@ -189,6 +189,29 @@ def test_wall_shows_the_day_without_a_panel_to_work_in(
     assert page.locator(".panel button:not(.link)").count() == 0
     size = page.get_by_role("timer").evaluate("each => parseFloat(getComputedStyle(each).fontSize)")
     assert size >= 30
+
+
+def test_link_to_the_day_shows_it_as_it_goes_on_and_the_list_opens_it(
+        client: httpx.Client, service: str, open_page: Callable[..., Page]) -> None:
+    day = begun(client)
+    page = open_page(f"{service}/#day={day}")
+    opened(page)
+    page.locator("#share").click()
+    visitor = open_page(page.locator("#share-url").input_value())
+    expect(visitor.get_by_text("You look at a day as it goes on")).to_be_visible()
+    told(client, day, order("G", 1, 1), at=10)
+    eventually(lambda: "G" in served_by(state(visitor, "state.plans.0.plan")))
+    expect(visitor.get_by_text("You look at a day as it goes on")).to_be_visible()
+    page.keyboard.press("Escape")
+    open_example(page, "smallest")
+    expect(page.get_by_role("timer")).to_have_count(0)
+    page.locator("#open-menu-button").click()
+    page.locator("#saved-plans").click()
+    row = page.get_by_role("list", name="Saved plans").get_by_role("listitem").filter(
+        has_text="A day, as it goes on")
+    row.get_by_role("button", name=re.compile("^Open")).click()
+    opened(page)
+    assert page.url.endswith(f"#day={day}")
 
 
 def test_what_cannot_be_planned_is_said_and_the_plan_before_stays(

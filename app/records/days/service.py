@@ -8,11 +8,10 @@ from typing import Any
 
 from pydantic_core import from_json, to_json
 
-from app.plans.telling import Telling
 from app.records.clock import now_ms
 from app.records.days.customers import links_of
 from app.records.days.errors import (
-    DayOverError, NoDayPlanError, TooManyDayEventsError, UnknownDayError,
+    DayOverError, TooManyDayEventsError, UnknownDayError,
 )
 from app.records.days.events import (
     AnyEvent, DayEventsRequest, DroneFlown, DroneLost, OrderCancelled, OrderPinned, OrderStated,
@@ -28,9 +27,10 @@ from app.records.days.schemas import (
     AcceptRequest, CustomerLinksReply, DayEventsReply, DayReply, DayRequest, LoggedReply,
     OrderReply, OrderState, PinReply, TakenReply, VehicleReply,
 )
-from app.records.days.spreads import chance_of, is_stated, without_chances
+from app.records.days.spreads import chance_of
 from app.records.days.store import BY_CLIENT, DayStore
 from app.records.days.telling import Steps
+from app.records.days.views import plan_of, problem_of
 from app.records.dispatches.errors import TooManyDispatchesError
 from app.records.dispatches.instants import PlanStart, instant
 from app.records.dispatches.rows import DayRow
@@ -42,7 +42,6 @@ from app.schemas.day import DayOfBody, Times
 from app.schemas.errors import InputError, InvalidRequestError
 from app.schemas.plan import PlanInput
 from app.schemas.request import PlanRequest
-from app.schemas.response import PlanReply
 from app.schemas.times import read_body
 from app.serving.settings import Settings
 
@@ -175,21 +174,8 @@ class DayService:
             If there is no such day, or it has no plan yet.
         """
         row = self.find(name, owner)
-        content = self._store.plan(row.id)
-        if content is None:
-            raise NoDayPlanError
-        plan = dict(from_json(content))
-        begun = self._store.begun(row.id)
-        stated = begun.problem
-        if times is not None:
-            stated = {**stated, "options": {**stated.get("options", {}), "times": times}}
-        telling = Telling.of(read_body(PlanRequest, to_json({
-            **stated, "customers": [], "shipments": [], "relations": [], "replan": None})))
-        if not is_stated(begun):
-            plan = without_chances(plan)
-        telling.tell(PlanReply, plan)
         return {"number": row.plan_number, "planned": row.planned,
-                "plan": {**telling.stated, **plan}}
+                "plan": plan_of(self._store, row, times)}
 
     def links(self, name: str, owner: str, base: str) -> CustomerLinksReply:
         """Return a link for each order, `base` being the service's address; raises as `find`."""
@@ -201,17 +187,7 @@ class DayService:
 
     def problem(self, name: str, owner: str) -> dict[str, Any]:
         """Return a day's problem with the orders that were told; raises as `find` does."""
-        row = self.find(name, owner)
-        begun = self._store.begun(row.id)
-        told = self._memory.stood(self._store, row, begun).told
-        planned = {order.partition("/")[0]
-                   for order, _, _ in visits(self._memory.plan(self._store, row) or NO_PLAN)}
-        stay = {order: each for order, each in told.cancelled.items() if order in planned}
-        return {**begun.problem, "replan": None,
-                "customers": [*told.customers.values(), *(
-                    each for each in stay.values() if "delivery" not in each)],
-                "shipments": [*told.shipments.values(), *(
-                    each for each in stay.values() if "delivery" in each)]}
+        return problem_of(self._store, self._memory, self.find(name, owner))
 
     def read(self, name: str, owner: str) -> DayReply:
         """Return how a day stands; raises as `find` does."""

@@ -20,7 +20,7 @@ Raw = msgspec.Raw | msgspec.UnsetType
 
 
 class _Stated(msgspec.Struct):
-    request: msgspec.Raw
+    request: msgspec.Raw = NOTHING
     plan: msgspec.Raw = NOTHING
 
 
@@ -33,6 +33,7 @@ class _Body(msgspec.Struct, forbid_unknown_fields=True):
     note: Raw = msgspec.UNSET
     request: Raw = msgspec.UNSET
     plan: Raw = msgspec.UNSET
+    day: Raw = msgspec.UNSET
 
 
 class _Request(msgspec.Struct):
@@ -54,7 +55,7 @@ def read_content(body: bytes) -> Content:
     """Return the plan that a body has.
 
     Request and plan are kept as they are, what this version doesn't know of them included, and
-    never made into objects, which would take many times their length.
+    never made into objects, which would take many times their length. Of a day there are none yet.
 
     Raises
     ------
@@ -65,6 +66,8 @@ def read_content(body: bytes) -> Content:
     # What is told of a value's type is how it begins.
     value = msgspec.Raw(body.strip())
     parts = _checked(value)
+    if parts.day is not None:
+        return Content(parts.name, parts.note, b"", 0, None, parts.day)
     stated = msgspec.json.decode(value, type=_Stated)
     content = b"".join((b'{"request":', stated.request, b',"plan":', stated.plan, b"}"))
     customers = msgspec.json.decode(stated.request, type=_Customers).customers
@@ -77,7 +80,7 @@ def _checked(body: msgspec.Raw) -> KeptPlanInput:
     """Return what is read of a body, its long lists empty; raises as `read_content` does."""
     try:
         outline = _outline(body, _Body, {
-            "name": _text, "note": _text,
+            "name": _text, "note": _text, "day": _text,
             "request": lambda request: _outline(request, _Request, {}),
             "plan": lambda plan: _outline(plan, _Plan, {
                 "cost": lambda cost: _outline(cost, _Cost, {"total": _number})})})

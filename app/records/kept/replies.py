@@ -39,8 +39,8 @@ def links(rows: list[LinkRow]) -> bytes:
 
 def shared(row: KeptRow, body: bytes) -> bytes:
     """Return a plan as a link shows it: nothing of whose it is."""
-    return _joined({"name": row.name, "note": row.note, "changed_at": instant_of(row.changed_at)},
-                   body)
+    return _joined({"name": row.name, "note": row.note, "changed_at": instant_of(row.changed_at),
+                    "is_live": row.day is not None}, body)
 
 
 def _summary(row: KeptRow, room: KeptRoom) -> dict[str, Any]:
@@ -48,7 +48,7 @@ def _summary(row: KeptRow, room: KeptRoom) -> dict[str, Any]:
     return {"id": row.id, "name": row.name, "note": row.note, "version": row.version,
             "created_at": instant_of(row.created_at), "changed_at": instant_of(row.changed_at),
             "expires_at": ends, "bytes": row.bytes, "customers": row.customers, "cost": row.cost,
-            "links": row.links}
+            "links": row.links, "day": row.day}
 
 
 def _link(row: LinkRow) -> dict[str, Any]:

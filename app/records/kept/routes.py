@@ -6,7 +6,9 @@ from typing import Annotated, Any
 from fastapi import APIRouter, Depends, Header, Path, Query, Request, Response, Security
 from fastapi.security import APIKeyHeader
 
-from app.records.kept import replies
+from app.records.days.memory import DayMemory
+from app.records.days.runner import DayRunner
+from app.records.kept import live, replies
 from app.records.kept.desk import KeptDesk
 from app.records.kept.errors import UnknownLinkError
 from app.records.kept.reading import read_content
@@ -37,10 +39,11 @@ PARAMETERS = "A parameter or the body is not valid."
 
 LISTED = problems(_422=PARAMETERS, _503=UNAVAILABLE)
 FOUND = LISTED | problems(_404=UNKNOWN)
+NO_DAY = problems(_404="There is no such day, or it is another's.")
 CHANGEABLE = problems(400, 413) | LISTED | problems(_412=CHANGED, _428=VERSION_NEEDED)
 KEPT: dict[int | str, dict[str, Any]] = {
     201: {"model": KeptPlanSummary, "description": "The plan is new."},
-    **CHANGEABLE, **problems(_409=NO_ROOM)}
+    **CHANGEABLE, **NO_DAY, **problems(_409=NO_ROOM)}
 DELETED = FOUND | problems(_412=CHANGED)
 
 PlanId = Annotated[str, Path(
@@ -65,7 +68,14 @@ async def get_desk(request: Request) -> KeptDesk:
     return desk
 
 
+async def get_memory(request: Request) -> DayMemory:
+    """Return how days stood last."""
+    runner: DayRunner | None = request.app.state.days
+    return DayMemory() if runner is None else runner.memory
+
+
 Desk = Annotated[KeptDesk, Depends(get_desk)]
+Memory = Annotated[DayMemory, Depends(get_memory)]
 
 
 @router.get("/plans", summary="List kept plans", response_model=KeptPlanListReply,
@@ -86,13 +96,14 @@ async def list_kept_plans(
 
 @router.put("/plans/{plan_id}", summary="Keep a plan", response_model=KeptPlanSummary,
             responses=KEPT, openapi_extra=json_body(KeptPlanInput))
-async def keep_plan(plan_id: PlanId, principal: Plan, desk: Desk, body: Body,
+async def keep_plan(plan_id: PlanId, principal: Plan, desk: Desk, body: Body, memory: Memory,
                     if_match: IfMatch = None, if_none_match: IfNoneMatch = None) -> Response:
-    """Keep a problem and its plan by a name, new or in place of a version that is known."""
+    """Keep a problem and its plan, or a day's, new or in place of a version that is known."""
     known = _precondition(if_match, if_none_match)
 
     def keep(store: KeptStore) -> tuple[KeptRow, bool]:
-        return store.write(principal.key_id, plan_id, read_content(body.content), known)
+        content = live.content_of(store, memory, principal.key_id, read_content(body.content))
+        return store.write(principal.key_id, plan_id, content, known)
 
     (row, is_new), room = await desk.ask(lambda store: (keep(store), store.room))
     location = {"Location": f"/plans/{row.id}"} if is_new else {}
@@ -101,10 +112,11 @@ async def keep_plan(plan_id: PlanId, principal: Plan, desk: Desk, body: Body,
 
 @router.get("/plans/{plan_id}", summary="Read a kept plan", response_model=KeptPlanReply,
             responses=FOUND)
-async def read_kept_plan(plan_id: PlanId, principal: Plan, desk: Desk) -> Response:
+async def read_kept_plan(plan_id: PlanId, principal: Plan, desk: Desk,
+                         memory: Memory) -> Response:
     """Return a plan with its content."""
-    (row, body), room = await desk.ask(
-        lambda store: (store.read(principal.key_id, plan_id), store.room))
+    (row, body), room = await desk.ask(lambda store: (
+        live.read(store, memory, store.read(principal.key_id, plan_id)), store.room))
     return _json(replies.whole(row, body, room), headers=_tag(row))
 
 
@@ -162,11 +174,13 @@ async def end_link(plan_id: PlanId, link_id: LinkId, principal: Plan, desk: Desk
 @router.get("/shared-plan", summary="See a shared plan", response_model=SharedPlanReply,
             responses=problems(_404="No plan is shared by this token.", _503=UNAVAILABLE))
 async def see_shared_plan(
-    request: Request, desk: Desk, token: Annotated[str | None, Security(SHARE_TOKEN)] = None,
+    request: Request, desk: Desk, memory: Memory,
+    token: Annotated[str | None, Security(SHARE_TOKEN)] = None,
 ) -> Response:
     """Return the plan that a link shows. No key is needed, and nothing can be changed by it."""
     try:
-        row, body = await desk.ask(lambda store: store.shared(token or ""))
+        row, body = await desk.ask(
+            lambda store: live.read(store, memory, store.shared(token or "")))
     except UnknownLinkError:
         guard: Guard = request.app.state.guard
         guard.count_wrong_token(request)

@@ -18,6 +18,7 @@ class KeptRow:
     customers: int
     cost: float | None
     links: int
+    day: str | None  # whose plan it is, as that stands
 
 
 @dataclass(frozen=True)
@@ -40,6 +41,7 @@ class Content:
     body: bytes  # JSON, of request and plan
     customers: int
     cost: float | None
+    day: str | None = None  # whose plan it is; body, customers and cost are those of now
 
 
 @dataclass(frozen=True)

@@ -1,9 +1,10 @@
 """What is sent to keep a plan, and what is told of kept ones."""
 
 from datetime import datetime
-from typing import Annotated, Any
+from typing import Annotated, Any, Self
 
-from pydantic import BaseModel, ConfigDict, Field
+from pydantic import BaseModel, ConfigDict, Field, model_validator
+from pydantic_core import PydanticCustomError
 
 from app.schemas.fields import Input
 from app.schemas.limits import MAX_CUSTOMERS
@@ -51,13 +52,26 @@ class KeptPlanInput(Input):
 
     name: PlanName
     note: Note = ""
-    request: KeptRequest = Field(
-        description="A request of `POST /plan`. It is kept as it is, also with errors that its "
-        "planning would be refused for: what is half done can be kept too."
+    request: KeptRequest | None = Field(
+        None, description="A request of `POST /plan`. It is kept as it is, also with errors that "
+        "its planning would be refused for: what is half done can be kept too."
     )
     plan: KeptPlan | None = Field(
         None, description="The reply that goes with it, kept as it is. Null: not planned yet."
     )
+    day: Annotated[str, Field(min_length=1, max_length=64)] | None = Field(
+        None, description="Id of a day, in place of `request` and `plan`: whoever reads the plan, "
+        "also by a link, gets the day's problem and plan as they are then. Once the day is "
+        "deleted: as they were when this was kept.")
+
+    @model_validator(mode="after")
+    def _is_one(self) -> Self:
+        """Refuse what has no content, or that of two."""
+        if (self.day is None) == (self.request is None) or (self.day and self.plan):
+            raise PydanticCustomError(
+                "MISSING_FIELD", "What is kept is a request, with its plan if it has one, or a "
+                "day: state one of them.")
+        return self
 
 
 class KeptPlanChange(Input):
@@ -87,6 +101,9 @@ class KeptPlanSummary(_Reply):
     customers: int = Field(description="Customers of its request.")
     cost: float | None = Field(description="Total cost of its plan. Null: not planned yet.")
     links: int = Field(description="Links by which it is shared.")
+    day: str | None = Field(description="Id of the day whose problem and plan it is as they are "
+                            "now; bytes, customers and cost are those when it was kept. Null: it "
+                            "is as it was kept.")
 
 
 class KeptPlanReply(KeptPlanSummary):
@@ -131,5 +148,6 @@ class SharedPlanReply(_Reply):
     name: str = Field(description="What its owner calls it.")
     note: str = Field(description="What its owner noted with it.")
     changed_at: datetime = Field(description="When it was changed last.")
+    is_live: bool = Field(description="Whether it is a day's, which goes on.")
     request: dict[str, Any] = Field(description="The request, as it was sent.")
     plan: dict[str, Any] | None = Field(description="The plan, as it was sent.")

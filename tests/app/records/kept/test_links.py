@@ -25,7 +25,7 @@ def test_link_shows_the_plan_without_a_key_and_nothing_else(ann: Owner) -> None:
     assert reply.status_code == 200
     assert reply.headers["cache-control"] == "no-store"
     shown = reply.json()
-    assert sorted(shown) == ["changed_at", "name", "note", "plan", "request"]
+    assert sorted(shown) == ["changed_at", "is_live", "name", "note", "plan", "request"]
     assert (shown["name"], shown["request"], shown["plan"]) == ("Monday", REQUEST, PLAN)
     assert link["path"] == f"/#shared={link['token']}"
     for headers in ({"Authorization": f"Bearer {link['token']}"},

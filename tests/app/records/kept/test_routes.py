@@ -141,7 +141,7 @@ def test_plans_need_a_key_with_the_scope(ann: Owner, service: Service) -> None:
     (content(name=""), "$.name"), (content(name="a\x00b"), "$.name"), (content(note=5), "$.note"),
     (content(request={"depots": [], "customers": []}), "$.request.fleet"),
     (content(plan={"routes": []}), "$.plan.cost"), (content(plans=[]), "$.plans"),
-    ({"name": "x"}, "$.request")])
+    ({"name": "x"}, "$")])
 def test_what_is_no_plan_is_refused_where_it_is_wrong(
         ann: Owner, body: dict[str, Any], path: str) -> None:
     reply = ann.keep("p", body)

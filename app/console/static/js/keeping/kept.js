@@ -4,9 +4,12 @@ import { openRequest, openTab, showFailure } from '../actions.js';
 import * as api from '../api.js';
 import { isUnsaved, planToSave } from '../core/drafts.js';
 import { judgedPlan } from '../core/moving.js';
+import { inSeconds } from '../core/times.js';
+import { openDay } from '../living.js';
 import { plan, resume } from '../planning.js';
 import { resumeScenario } from '../scenarios.js';
 import { store } from '../store.js';
+import { language, t } from '../texts.js';
 import * as browser from './browser.js';
 import { newId } from './database.js';
 import { deleteDrafts, listDrafts } from './draft-records.js';
@@ -18,6 +21,8 @@ import { heldDrafts } from './tabs.js';
 const PLACES = { browser, service };
 
 const SHARED = '#shared=';
+
+const LOOK_MS = 10_000; // between two looks at a day
 
 /** Change what the open dialog shows. */
 export function change(patch) {
@@ -72,7 +77,9 @@ async function otherDrafts() {
 }
 
 /** Open a kept plan in place of what is open. */
-export async function openKept({ where, id }) {
+export async function openKept({ where, id, day }) {
+  // A day that is deleted was kept as it stood once.
+  if (day && await openDay(day).then(() => true, () => false)) return closeKeeping();
   const kept = await attempt(() => PLACES[where].read(id));
   if (!kept) return;
   closeKeeping();
@@ -223,7 +230,11 @@ async function saveTo(where, id, version) {
 
 /** Keep what is open for all who have the key, unless it is, and make a link to it. */
 export async function share() {
-  const { home } = store.get();
+  const { home, live } = store.get();
+  if (live) {
+    await shareDay(live.day);
+    return;
+  }
   const isThere = home?.where === 'service';
   if (!isThere) await saveTo('service', newId(), null);
   else if (isUnsaved(store.get())) await saveTo('service', home.id, home.version);
@@ -231,6 +242,19 @@ export async function share() {
   if (now?.where !== 'service' || isUnsaved(store.get())) return; // why, is told
   await openLinks(now);
   await makeLink();
+}
+
+/** Keep the day that is followed as it goes on, and make a link to it. */
+async function shareDay({ dispatch: id, plan_start: begins }) {
+  const name = `${t('live.plan')}, ${new Date(begins).toLocaleDateString(language())}`;
+  try {
+    // It may be kept already, by another name.
+    await openLinks(await api.putKeptPlan(id, { name, day: id }, null)
+      .catch(() => api.getKeptPlan(id)));
+    await makeLink();
+  } catch (error) {
+    showFailure(error);
+  }
 }
 
 /** Show the links of a kept plan. */
@@ -267,11 +291,22 @@ export function tokenInAddress() {
 
 /** Show the plan of a link; it is looked at, and not this browser's. */
 export async function viewShared(token) {
-  show(await api.getSharedPlan(token), { viewing: token });
-  const first = store.get().request;
+  const shared = await api.getSharedPlan(token);
+  show(shared, { viewing: token, isDay: shared.is_live });
+  let last = store.get().request;
+  const again = async () => {
+    const now = await api.getSharedPlan(token).catch(() => null);
+    if (!now || store.get().viewing !== token) return;
+    last = inSeconds(store.get().schemas, now.request);
+    const plans = now.plan ? [{ number: 1, request: last, plan: now.plan }] : [];
+    store.set({ request: last, plans, shown: now.plan ? 1 : null });
+  };
+  const timer = shared.is_live && setInterval(again, LOOK_MS);
   const unsubscribe = store.subscribe(({ request, viewing }) => {
-    if (viewing !== token) unsubscribe();
-    else if (request !== first) leaveLink();
+    if (viewing === token && request !== last) leaveLink();
+    if (store.get().viewing === token) return;
+    clearInterval(timer);
+    unsubscribe();
   });
 }
 

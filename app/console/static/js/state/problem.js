@@ -11,6 +11,7 @@ export const PROBLEM = {
   home: null, // {where, id, version} of the kept plan that is open, see keeping/kept.js
   saved: null, // {request, plan} as they are kept, or were opened
   viewing: null, // token of the link by which a shared plan is looked at
+  isDay: false, // whether that is a day, which goes on
   unkept: null, // why the browser doesn't keep what is done here
   keeping: null, // a dialog about kept plans, see keeping/kept.js
   importing: null, // a sheet that is looked over, see importing.js

@@ -35,7 +35,8 @@ function when(instant) {
 }
 
 /** Return how many customers a plan has and what it costs, in words. */
-function contentOf({ customers, cost }) {
+function contentOf({ customers, cost, day }) {
+  if (day) return t('kept.day');
   return cost === null
     ? t('kept.unplanned', { count: customers })
     : t('kept.planned', { count: customers, cost: money(cost) });

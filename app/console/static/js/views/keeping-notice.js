@@ -12,9 +12,10 @@ export const isToBeTold = ({ unkept, viewing }) => Boolean(unkept || viewing);
 export function KeepingNotice() {
   const unkept = useStore((state) => state.unkept);
   const viewing = useStore((state) => state.viewing);
+  const isDay = useStore((state) => state.isDay);
   if (viewing) {
     return html`<div class="notice calm" role="status"><div><strong>${
-      t('kept.shared')}</strong> ${t('kept.sharedHelp')}</div>
+      isDay ? t('kept.sharedDay') : t('kept.shared')}</strong> ${t('kept.sharedHelp')}</div>
       <button type="button" onClick=${askName}>${t('kept.saveAs')}</button></div>`;
   }
   if (!unkept) return null;
