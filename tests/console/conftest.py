@@ -198,6 +198,7 @@ def set_back(page: Page, example: str, *, is_planned: bool) -> None:
     """Have a console show an example and nothing of what was done before. In place."""
     page.unroute_all()
     page.set_viewport_size(VIEWPORT)
+    page.emulate_media(media="screen", color_scheme="light")
     page.mouse.move(0, 0)
     awaited(page, AS_AT_FIRST, [example, is_planned])
     if is_planned:

@@ -11,7 +11,7 @@ from playwright.sync_api import Page, expect
 from tests.console.steps import idle, open_example, open_file, open_tab, planned, state
 from tests.console.test_everyone import findings
 
-pytestmark = pytest.mark.slow
+pytestmark = [pytest.mark.slow, pytest.mark.one_page]
 
 DRONES = {"count": 1, "capacity": [2], "endurance": 1800}
 

@@ -12,7 +12,7 @@ from tests.console.steps import idle, open_file, open_tab, place_of, planned, st
 from tests.console.test_everyone import findings
 from tests.console.test_replanning import PROBLEM, begin, customers_of, plan_on
 
-pytestmark = pytest.mark.slow
+pytestmark = [pytest.mark.slow, pytest.mark.one_page]
 
 ONE_VAN: dict[str, Any] = {
     "planar_unit": 1000, "depots": [{"id": "hub", "location": [0, 0]}],

@@ -13,13 +13,13 @@ from tests.console.steps import (
     awaited, idle, open_example, open_file, place_of, planned, state,
 )
 from tests.console.test_hands import bar_of, hands, told, tours
-from tests.console.test_speed import COUNT, large_problem
+from tests.console.test_speed import large_problem
 
 pytestmark = pytest.mark.slow
 
 __all__ = ["hands"]
 
-DRAGS = 20
+DRAGS, COUNT = 20, 300
 Stroke = Callable[[list[tuple[float, float]]], None]
 
 POSITION = """() => {
@@ -86,11 +86,11 @@ def plan_shown(page: Page) -> str:
 
 @pytest.fixture(scope="module")
 def crowd(browser: Browser, service: str) -> Iterator[Page]:
-    """Return a console with two thousand customers planned."""
+    """Return a console with three hundred customers planned."""
     with opening(browser) as opener:
         page = opener(service, has_touch=True)
         idle(page)
-        problem = large_problem() | {"options": {"time_limit": 0}}
+        problem = large_problem(COUNT) | {"options": {"time_limit": 0}}
         open_file(page, "large.json", json.dumps(problem))
         planned(page, f"{COUNT} of {COUNT} served")
         yield page
@@ -98,7 +98,7 @@ def crowd(browser: Browser, service: str) -> Iterator[Page]:
 
 @pytest.mark.parametrize(("width", "height", "way"), [
     (1440, 900, by_mouse), (1024, 768, by_mouse), (390, 844, by_finger)])
-def test_panning_among_two_thousand_customers_changes_nothing(
+def test_panning_among_many_customers_changes_nothing(
         crowd: Page, width: int, height: int, way: Callable[[Page], Stroke]) -> None:
     before = plan_shown(crowd)
     stroke = way(crowd)

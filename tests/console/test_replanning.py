@@ -10,7 +10,7 @@ from playwright.sync_api import Page, expect
 from tests.console.steps import idle, open_advanced, open_file, open_tab, place_of, planned, state
 from tests.console.test_everyone import findings
 
-pytestmark = pytest.mark.slow
+pytestmark = [pytest.mark.slow, pytest.mark.one_page]
 
 # Three customers east and three west of the hub, 5 km apart, a minute each kilometre; windows
 # have them visited from the nearest on.

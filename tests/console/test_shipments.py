@@ -11,7 +11,7 @@ from tests.console.steps import open_file, open_tab, place_of, planned, state
 from tests.console.test_everyone import findings
 from tests.console.test_importing import dialog, use
 
-pytestmark = pytest.mark.slow
+pytestmark = [pytest.mark.slow, pytest.mark.one_page]
 
 REQUEST: dict[str, Any] = {
     "planar_unit": 1000, "depots": [{"id": "hub", "location": [0, 0]}],

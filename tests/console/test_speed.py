@@ -25,12 +25,12 @@ FRAMES = """() => {
 }"""
 
 
-def large_problem() -> dict[str, Any]:
-    """Return two thousand customers around a depot."""
+def large_problem(count: int = COUNT) -> dict[str, Any]:
+    """Return many customers around a depot."""
     rng = random.Random(4)
     customers = [{"id": f"c{number}", "demand": [rng.randint(1, 20)],
                   "location": [round(rng.gauss(50, 22), 3), round(rng.gauss(50, 22), 3)]}
-                 for number in range(COUNT)]
+                 for number in range(count)]
     return {"planar_unit": 1000, "depots": [{"id": "hub", "location": [50, 50]}],
             "customers": customers, "options": {"time_limit": 1.5},
             "fleet": [{"id": "truck", "count": 80, "capacity": [400],

@@ -28,6 +28,7 @@ from tests.model.search.optima import cheapest_known
 from tests.model.tiny import with_dimensions, with_places
 from tests.model.tiny_prices import with_vehicle_costs
 from tests.model.tiny_shipments import with_shipments
+from tests.seeds import seeds
 
 pytestmark = pytest.mark.slow
 
@@ -345,10 +346,10 @@ def searched_cost(problem: Problem, turns: int) -> float:
     return evaluation.cost.total
 
 
-def missed_seeds(draw: Callable[[np.random.Generator], Problem], seeds: range) -> list[int]:
+def missed_seeds(draw: Callable[[np.random.Generator], Problem], drawn: range) -> list[int]:
     """Return the seeds of problems of which a cheaper plan is known than the search finds."""
     missed = []
-    for seed in seeds:
+    for seed in drawn:
         problem = draw(np.random.default_rng(seed))
         limit = cheapest_known(problem) * (1 + 1e-9)
         if all(searched_cost(problem, turns) > limit for turns in TURNS):
@@ -364,16 +365,16 @@ def test_search_finds_the_cheapest_plan(draw: Callable[[np.random.Generator], Pr
     assert missed_seeds(draw, range(1 if draw in dear else 2)) == []
 
 
-@pytest.mark.parametrize("first", range(0, 24, SHARE))
+@pytest.mark.parametrize("first", range(0, len(seeds(24)), SHARE))
 def test_search_finds_the_cheapest_plan_where_all_rules_mix(first: int) -> None:
-    assert missed_seeds(all_rules, range(first, first + SHARE)) == []
+    assert missed_seeds(all_rules, seeds(24)[first:first + SHARE]) == []
 
 
 @pytest.mark.parametrize("draw", [plain, timed_windows, soft_windows, two_types, one_drone],
                          ids=lambda draw: draw.__name__)
 def test_search_finds_the_cheapest_plan_from_place_to_place(
         draw: Callable[[np.random.Generator], Problem]) -> None:
-    assert missed_seeds(lambda rng: with_places(rng, draw(rng)), range(3)) == []
+    assert missed_seeds(lambda rng: with_places(rng, draw(rng)), seeds(3)) == []
 
 
 @pytest.mark.parametrize("draw", [
@@ -387,7 +388,7 @@ def test_search_finds_the_cheapest_plan_from_place_to_place(
     ids=lambda draw: draw.__name__)
 def test_search_finds_the_cheapest_plan_whatever_else_is_stated(
         draw: Callable[[np.random.Generator], Problem]) -> None:
-    assert missed_seeds(draw, range(SHARE)) == []
+    assert missed_seeds(draw, seeds(SHARE)) == []
 
 
 @pytest.mark.parametrize("draw", [
@@ -397,4 +398,4 @@ def test_search_nearly_always_finds_the_cheapest_plan_between_many_places(
         draw: Callable[[np.random.Generator], Problem]) -> None:
     # Where trips meet is chosen by distance, before all else that may count. Trips with drones of
     # several types are not split anew between truck and drones.
-    assert len(missed_seeds(draw, range(14))) <= 1
+    assert len(missed_seeds(draw, seeds(14))) <= 1

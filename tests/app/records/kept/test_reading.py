@@ -48,8 +48,8 @@ def test_what_is_wrong_is_named(parts: dict[str, bytes], path: str) -> None:
     assert [error.path for error in refused.value.errors] == [path]
 
 
-def test_of_a_million_unknown_fields_one_is_told_for_little_memory() -> None:
-    body = b"{" + b",".join(b'"k%d":0' % number for number in range(10**6)) + b"}"
+def test_of_many_unknown_fields_one_is_told_for_little_memory() -> None:
+    body = b"{" + b",".join(b'"k%d":0' % number for number in range(10**5)) + b"}"
     tracemalloc.start()
     with pytest.raises(InvalidRequestError) as refused:
         read_content(body)
@@ -68,9 +68,9 @@ def test_what_is_no_json_is_refused(body: bytes) -> None:
 
 def test_large_plans_are_kept_for_little_memory() -> None:
     stops = [{"kind": "customer", "id": str(number), "arrival": number + 0.25, "load": [1, 2.5]}
-             for number in range(100_000)]
+             for number in range(10_000)]
     customers = [{"id": str(number), "location": [number, 0.5], "demand": [1]}
-                 for number in range(100_000)]
+                 for number in range(10_000)]
     whole: dict[str, Any] = content(
         request={"depots": [], "customers": customers, "fleet": []},
         plan={"cost": {"total": 1}, "routes": [{"trips": [{"stops": stops}]}]})
@@ -79,6 +79,6 @@ def test_large_plans_are_kept_for_little_memory() -> None:
     kept = read_content(body)
     taken = tracemalloc.get_traced_memory()[1]
     tracemalloc.stop()
-    assert kept.customers == 100_000
+    assert kept.customers == 10_000
     assert json.loads(kept.body) == {name: whole[name] for name in ("request", "plan")}
     assert taken < 4 * len(body)
