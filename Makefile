@@ -13,7 +13,7 @@ INSTALL := $(BIN)/python .ci/install.py
 # each other in vain. Tests of the engine find CMake there.
 PYTEST := PATH="$(CURDIR)/$(BIN):$$PATH" OMP_NUM_THREADS=1 $(BIN)/pytest --numprocesses auto --dist worksteal
 # What users don't run; `.ci/run` does.
-STUDIES := tests/benchmarks tests/test_contributing.py
+STUDIES := tests/benchmarks tests/app/test_api_fuzz.py tests/test_contributing.py
 URL := http://$(HOST):$(PORT)
 # Modules are kept compiled whatever the environment says: each start loads hundreds of them.
 export PYTHONDONTWRITEBYTECODE =
@@ -45,7 +45,7 @@ plan: .venv/serving engine ## Plan examples/table1.json, write plan.json and che
 test: prepared .venv/testing engine guide ## Install what the tests need and run them
 	$(PYTEST) $(STUDIES:%=--ignore=%)
 
-test-studies: .venv/testing engine guide ## Run the tests of benchmarks, and the commands of CONTRIBUTING.md
+test-studies: .venv/testing engine guide ## Run the tests of benchmarks, generated requests, and CONTRIBUTING.md
 	$(PYTEST) $(STUDIES)
 
 test-quick: .venv/testing engine guide ## Run many tests in under a minute, without browser, database and services
