@@ -349,8 +349,7 @@ def searched_cost(problem: Problem, turns: int) -> float:
 def missed_seeds(draw: Callable[[np.random.Generator], Problem], drawn: range) -> list[int]:
     """Return the seeds of problems of which a cheaper plan is known than the search finds."""
     missed = []
-    for seed in drawn:
-        problem = draw(np.random.default_rng(seed))
+    for seed, problem in ((seed, draw(np.random.default_rng(seed))) for seed in drawn):
         limit = cheapest_known(problem) * (1 + 1e-9)
         if all(searched_cost(problem, turns) > limit for turns in TURNS):
             missed.append(seed)
