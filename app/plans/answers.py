@@ -1,6 +1,6 @@
 """What is answered where plans are made: one function for each question, told whether to stop."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 
 from app.plans.checking import answer_check
 from app.plans.explaining import Subject, answer_explain, explain_job
@@ -35,9 +35,15 @@ def fit(place: Workplace, body: ReceivedBody, should_stop: ShouldStop) -> bytes:
     return answer_fit(body, place.bounds, should_stop, place.service.roads)
 
 
+def quote_day(place: Workplace, body: ReceivedBody, first: Sequence[str],
+              should_stop: ShouldStop) -> bytes:
+    """Answer quotes of days, whose plan lacks some orders yet."""
+    return answer_quote(body, place.bounds, should_stop, place.service.roads, place.quoted, first)
+
+
 def quote(place: Workplace, body: ReceivedBody, should_stop: ShouldStop) -> bytes:
-    """Answer `POST /quote`, and quotes of days."""
-    return answer_quote(body, place.bounds, should_stop, place.service.roads)
+    """Answer `POST /quote`."""
+    return answer_quote(body, place.bounds, should_stop, place.service.roads, place.quoted)
 
 
 def explain_planned(place: Workplace, request: PlanRequest, reply: bytes, subject: Subject,

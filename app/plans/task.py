@@ -2,7 +2,6 @@
 
 import re
 import time
-from collections import defaultdict
 from collections.abc import Iterable, Sequence
 from dataclasses import asdict, dataclass, field, replace
 from functools import cached_property, partial
@@ -25,36 +24,34 @@ from app.plans.rulebook import laws_named, rules_named
 from app.plans.steps import step
 from app.plans.storms import Storms
 from app.plans.telling import IN_SECONDS, Telling
+from app.plans.terms import terms_of
 from app.plans.waves import Waves
 from app.requests.conversion.ground import Ground
 from app.requests.conversion.leg_origins import LegOrigin
 from app.requests.conversion.locating import Located, located
-from app.requests.conversion.names import read_name
 from app.requests.conversion.places import PlacedRequest
 from app.requests.conversion.preparing import UNHURRIED, Preparing
 from app.requests.conversion.problem import problem_of
 from app.requests.conversion.travels import Travels
-from app.requests.conversion.units import optional_thousandths, thousandths
 from app.requests.conversion.work import replanning_seconds
 from app.requests.plan_departed import with_what_is_there
-from app.requests.plan_reading import plan_to_solution, read_earlier_plan
+from app.requests.plan_reading import plan_to_solution
 from app.requests.warnings.addresses import address_warnings
 from app.requests.warnings.finding import warnings_of
 from app.requests.warnings.warning import RequestWarning
 from app.schemas.errors import InputError, InvalidRequestError
-from app.schemas.request import OptionsInput, PlanRequest, ReplanInput
+from app.schemas.request import PlanRequest
 from app.schemas.response import PlanReply
 from model.counsel.bench import Setting
 from model.counsel.binding import Limit
 from model.counsel.explain import Reason, explain
 from model.counsel.more_trips import with_another_trip
 from model.counsel.remedy import Remedy
-from model.judge.changes import ChangePrices
 from model.judge.check import Evaluation, JudgedRoute, check
-from model.judge.past import Vehicle
 from model.judge.rules import Violation
 from model.planner import ALONE, Elapsed, Listener, Planner, PlanOptions, PlanResult
 from model.problem import Problem
+from model.problem.altered import differ_in_last
 from model.replanning.refusing import SettledPartError
 from model.replanning.replan import Replanning, Terms
 from model.replanning.workers import TooManyTypesError
@@ -262,10 +259,12 @@ class Task:
 
 
 def task_of(request: PlanRequest, preparing: Preparing = UNHURRIED,
-            ground: Ground | None = None, roads: Roads = NO_ROADS) -> Task:
+            ground: Ground | None = None, roads: Roads = NO_ROADS,
+            known: Task | None = None) -> Task:
     """Return what a valid request asks for, unless the work on it is to end.
 
     `ground` is that of the request, if it is known already; `roads` are those that the service has.
+    `known` is what a request asked for whose last customer may have been another.
 
     Raises
     ------
@@ -282,8 +281,7 @@ def task_of(request: PlanRequest, preparing: Preparing = UNHURRIED,
     if ground is None or places.found:
         ground = Ground(placed, preparing, roads.zones)
     travels = Travels(placed, preparing, ground, roads)
-    problem = problem_of(placed, travels)
-    legs = travels.origins()
+    problem, legs = problem_of(placed, travels), travels.origins()
     geometry = Geometry(placed, ground, roads, legs) if request.options.geometry else None
     warnings = (*warnings_of(request, roads.profiles), *address_warnings(places.found))
     beside = (info_of(request), legs, geometry, warnings, Telling.of(request))
@@ -296,7 +294,10 @@ def task_of(request: PlanRequest, preparing: Preparing = UNHURRIED,
         estimates = travels.estimates()
         return task(None, *beside, None if estimates is None else FarPlans(problem, estimates))
     replan, places_stated = with_what_is_there(replan, request.fleet)
-    terms = _terms(replan, request.options, problem)
+    if known and known.replanning and differ_in_last(known.problem, problem):
+        return task(known.replanning.with_last(problem), *beside, doubtful=replan.doubtful,
+                    terms=known.terms)
+    terms = terms_of(replan, request.options, problem)
     going_on = replace(preparing, work="Legs and the plan to go on from",
                        advice="send fewer customers or vehicles at once")
     going_on.expect(replanning_seconds(problem, terms.plan))
@@ -343,44 +344,6 @@ def _stated(path: str, routes: Sequence[int]) -> str:
     """Return where the plan given states what is at a path, by where its routes are stated."""
     return on_the_wire(re.sub(r"^routes\[(\d+)\]",
                               lambda match: f"routes[{routes[int(match[1])]}]", path))
-
-
-def _terms(replan: ReplanInput, options: OptionsInput, problem: Problem) -> Terms:
-    plan = read_earlier_plan(replan.plan, problem, ("replan", "plan"))
-    names = set(replan.pinned)
-    pinned = frozenset(
-        place for node, customer in enumerate(problem.customers, problem.num_depots)
-        if replan.pin_all or customer.id in names for place in problem.places_of(node))
-    unavailable, grounded = set[Vehicle](), defaultdict[Vehicle, set[int]](set)
-    types = {kind.type_id for kind in problem.vehicle_types}
-    prices, limits = options.change_costs, options.change_limits
-    concerned = frozenset([Vehicle(*problem.find_vehicle(named.vehicle_type, named.number))
-                           for name in replan.concerned
-                           if (named := read_name(name, types)) is not None])
-    for name in replan.unavailable:
-        named = read_name(name, types)
-        if named is None:
-            raise ValueError(f"the fleet has no vehicle {name!r}")
-        vehicle = Vehicle(*problem.find_vehicle(named.vehicle_type, named.number))
-        if named.drone is None:
-            unavailable.add(vehicle)
-        else:
-            grounded[vehicle].add(named.drone)
-    return Terms(plan, optional_thousandths(replan.freeze_before), pinned, frozenset(unavailable),
-                 optional_thousandths(replan.parcels_back),
-                 {vehicle: frozenset(drones) for vehicle, drones in grounded.items()},
-                 replan.keep_order,
-                 None if prices is None else ChangePrices(**prices.model_dump()),
-                 _promised(replan, problem),
-                 concerned if limits.vehicles == "concerned" else None,
-                 limits.new_orders == "behind")
-
-
-def _promised(replan: ReplanInput, problem: Problem) -> dict[int, int]:
-    """Return when customers, by node, were told that they are reached, in ms."""
-    return {node: thousandths(replan.promised[customer.id])
-            for node, customer in enumerate(problem.customers, problem.num_depots)
-            if customer.id in replan.promised and problem.first_place(node) == node}
 
 
 def _no_plan(problem: Problem, options: PlanOptions) -> PlanResult:

@@ -2,13 +2,14 @@
 
 import time
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import partial
 from typing import Any
 
 from pydantic_core import from_json, to_json
 
 from app.maps.roads.asked import AskedRoads, KnownRoads
+from app.plans.quoted_plans import QuotedPlans, quoted_plans
 from app.plans.service import PlanService
 from app.requests.bounds import Bounds
 from app.schemas.openapi import EXAMPLES_DIR
@@ -46,6 +47,7 @@ class Workplace:
     service: PlanService
     settings: Settings
     line: Line
+    quoted: QuotedPlans = field(default_factory=quoted_plans)
 
     @property
     def bounds(self) -> Bounds:

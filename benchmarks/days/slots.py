@@ -19,6 +19,7 @@ from typing import Any
 from pydantic_core import from_json, to_json
 
 from app.plans.quoting import answer_quote
+from app.plans.quoted_plans import quoted_plans
 from app.plans.service import PlanService
 from app.requests.bounds import Bounds
 from app.serving.load.received import ReceivedBody
@@ -72,10 +73,10 @@ def asked_for(stated: Data, plan: Data, seed: int) -> Data:
 
 def quoted(bodies: Sequence[bytes]) -> list[tuple[float, float, bytes]]:
     """Return seconds by the clock and of the processor, and the reply, of each request."""
-    bounds, found = Bounds.of_plans(Settings()), []
+    bounds, plans, found = Bounds.of_plans(Settings()), quoted_plans(), []
     for body in bodies:
         began, cpu = time.perf_counter(), time.process_time()
-        reply = answer_quote(ReceivedBody(body, began), bounds)
+        reply = answer_quote(ReceivedBody(body, began), bounds, plans=plans)
         found.append((time.perf_counter() - began, time.process_time() - cpu, reply))
     return found
 

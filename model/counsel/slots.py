@@ -8,7 +8,6 @@ from collections import Counter
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 
-from model.counsel.alternatives import try_places
 from model.counsel.bench import MOST_LEGS, Bench, Drafted
 from model.counsel.fitting import Fit, find_fits, new_violations
 from model.counsel.priced import Offer, is_seen_by_search, slot_offers
@@ -148,15 +147,28 @@ def _spare(bench: Bench, view: SearchedPlan) -> Iterator[tuple[Place, float]]:
 
 
 def _refused(bench: Bench, view: SearchedPlan) -> Fit | None:
-    """Return a place that breaks fewest rules of those on the nearest routes, or a new one."""
-    solution = bench.left_out.solution
+    """Return a place that breaks few rules of those on the nearest routes, or a new one.
+
+    One broken rule is as few as there can be.
+    """
+    best: Drafted | None = None
+    for place in _likely(bench, view):
+        draft = bench.draft(place)
+        best = draft if best is None else min(best, draft, key=lambda each: each.rank)
+        if best.rank[0] <= 1:
+            break
+    return None if best is None else Fit(bench, bench.finish(best))
+
+
+def _likely(bench: Bench, view: SearchedPlan) -> Iterator[Place]:
+    """Yield places on the nearest routes, the likeliest of each first, and with a vehicle more."""
     distance = bench.problem.travel[0].distance
     near = sorted((min([int(distance[stop.node, bench.node]) for trip in route.trips
                         for stop in trip.stops]), route.vehicle_type, route.vehicle)
-                  for route in solution.routes)[:TRIED]
+                  for route in bench.left_out.solution.routes)[:TRIED]
     vehicles = {Vehicle(kind, number) for _, kind, number in near}
-    drafts = [bench.draft(place) for place, _ in _spare(bench, view)]
-    tried, _ = try_places(bench, float("inf"), lambda vehicle: vehicle in vehicles, TRIED)
-    drafts += [draft for some in tried.values() for draft in some]
-    best = min(drafts, key=lambda draft: draft.rank, default=None)
-    return None if best is None else Fit(bench, bench.finish(best))
+    guesses = bench.guesses(wanted=lambda vehicle: vehicle in vehicles).values()
+    for turn in range(TRIED):
+        yield from [guess.place for guess in sorted(
+            [some[turn] for some in guesses if turn < len(some)], key=lambda guess: guess.rank)]
+    yield from [place for place, _ in _spare(bench, view)]

@@ -76,6 +76,8 @@ def _order_violations(problem: Problem, route: Route, past: Past, vehicle: Vehic
                       path: str) -> Iterator[Violation]:
     """Yield who isn't at the place in the order that it keeps, by when service starts."""
     places = {node: place for place, node in enumerate(past.orders.get(vehicle, ()))}
+    if not places:
+        return
     served = sorted((each for each in _served(route) if each.node in places),
                     key=lambda each: (each.start, each.stop or (), places[each.node]))
     for at, one in enumerate(served):

@@ -6,7 +6,6 @@ soon as possible, and as late as moves no end and makes no window missed.
 
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
-from functools import partial
 from operator import attrgetter
 from typing import NamedTuple
 
@@ -95,7 +94,8 @@ def _best_timed(problem: Problem, decision: RouteDecision, path: str, past: Past
     routes = list(_Timer(problem, decision, past).tries())
     kind = problem.vehicle_types[decision.vehicle_type]
     is_paid = kind.cost_per_hour and len(routes) > 1
-    least = min(routes, key=partial(working_duration, kind)) if is_paid else routes[0]
+    least = min(routes, key=lambda route: (_is_late(problem, route), working_duration(kind, route))
+                ) if is_paid else routes[0]
     best = TimedRoute(least, judge_route(problem, least, path, past))
     if not any(trip.sorties for trip in decision.trips) and _is_free_of_blame(best):
         # By truck, times alone cost: the others cost more, or as much and come later.
@@ -109,6 +109,11 @@ def _is_free_of_blame(timed: TimedRoute) -> bool:
     """Tell whether a route breaks no rule, and nothing is paid for when it serves and ends."""
     cost = timed.judged.cost
     return not (timed.judged.violations or cost.lateness or cost.earliness or cost.overtime)
+
+
+def _is_late(problem: Problem, route: Route) -> bool:
+    """Tell whether anybody is served too late by the times of a route."""
+    return any(_lateness(problem, trip) for trip in route.trips)
 
 
 def _has(trip: TripDecision, known: KnownTrip) -> bool:

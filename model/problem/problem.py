@@ -78,8 +78,8 @@ class Problem:
             require(matrix.duration.shape == (self.num_nodes, self.num_nodes), "travel shape",
                      matrix.duration.shape)
         for customer in self.customers:
-            require(len(customer.demand) == dimensions, f"customer {customer.id} demand",
-                     customer.demand)
+            if len(customer.demand) != dimensions:
+                require(False, f"customer {customer.id} demand", customer.demand)
         self._require_pairs()
         self._require_choices()
         for vehicle_type in self.vehicle_types:

@@ -300,4 +300,6 @@ def held_back(problem: Problem, held: Mapping[int, int]) -> Problem:
 
 def _back(customer: Customer, returned: int) -> Customer:
     """Return a customer whose parcel may have to come back to the depot first."""
-    return replace(customer, release_time=max(customer.release_time, returned))
+    if returned <= customer.release_time:
+        return customer
+    return replace(customer, release_time=returned)

@@ -3,6 +3,7 @@
 import math
 import time
 from collections.abc import Mapping
+from copy import copy
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from types import MappingProxyType
@@ -113,10 +114,20 @@ class Replanning:
             broken = check(problem, self._settled, past).violations
             workers = find_workers(problem, self.past, self._kept)
         refuse(as_given(terms.plan, self._settled, broken, PAST_RULES))
+        self._workers = workers
         self.left = what_is_left(problem, self.past, self._kept, workers)
         self._judge = Memory(problem, self.past)
         self.excused = tuple(item for item in broken if item.code not in PAST_RULES)
         """Rules that are broken already, which no plan can mend."""
+
+    def with_last(self, problem: Problem) -> "Replanning":
+        """Return the same of a problem that differs in its last customer alone, who is new."""
+        other = copy(self)
+        vars(other).pop("_new", None)
+        other.problem = _released(problem, self.past)
+        other.left = what_is_left(other.problem, self.past, self._kept, self._workers)
+        other._judge = Memory(other.problem, self.past)
+        return other
 
     @cached_property
     def _new(self) -> list[NewOrder]:

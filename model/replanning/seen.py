@@ -9,10 +9,14 @@ from model.judge.places import Place
 from model.replanning.handover import hand_over
 from model.replanning.kept import Kept
 from model.replanning.replan import Replanning
+from model.solution import Solution
 
 
-def seen(replanning: Replanning, bench: Bench) -> SearchedPlan | None:
+def seen(replanning: Replanning, bench: Bench,
+         handed: Solution | None = None) -> SearchedPlan | None:
     """Return what is left of a plan without a customer; None: nothing, or nobody may begin a trip.
+
+    `handed` is what is left of the plan, if it is known already.
     """
     left, plan = replanning.left, bench.left_out.solution
     if left is None or bench.node not in left.numbers:
@@ -40,8 +44,9 @@ def seen(replanning: Replanning, bench: Bench) -> SearchedPlan | None:
         return None if vehicle is None else place._replace(
             vehicle=vehicle, trip=place.trip + _begun(kept, vehicle))
 
-    return SearchedPlan(left.problem, hand_over(replanning.problem, plan, kept, left),
-                        left.numbers[bench.node], left.beginning, whole)
+    return SearchedPlan(
+        left.problem, handed or hand_over(replanning.problem, plan, kept, left),
+        left.numbers[bench.node], left.beginning, whole)
 
 
 def _begun(kept: dict[Vehicle, Kept], vehicle: Vehicle) -> int:
