@@ -26,6 +26,7 @@ from pydantic_core import from_json, to_json
 from app.database.durable import connect
 from app.database.migrations.running import upgrade
 from app.maps.roads.roads import NO_ROADS
+from app.plans.quoted_plans import quoted_plans
 from app.plans.quoting import answer_quote
 from app.plans.service import PlanService
 from app.records.days.runner import DayRunner
@@ -240,6 +241,7 @@ class Dispatcher:
         bounds = self._bounds = Bounds.of_plans(settings)
         self._plans = PlanService(load_planner(settings.weights_dir, settings.policies,
                                                lambda: None), bounds=bounds)
+        self._quoted = quoted_plans()
         self._store = DayStore(engine)
         self._runner = DayRunner(engine, lambda body, stop: self.plan(body), settings, NO_ROADS,
                                  lambda: True, lambda body: NO_SLOTS, lambda *_: None)
@@ -273,13 +275,15 @@ class Dispatcher:
     def quote(self, day: str, order: Data, slots: list[Data]) -> Data:
         """Price slots for an order."""
         asked = to_json({"order": order, "slots": slots})
-        body = self._days.asked_of(day, "", asked)
-        reply = answer_quote(ReceivedBody(body, time.perf_counter()), self._bounds)
+        now = self._days.asked_of(day, "", asked)
+        reply = answer_quote(ReceivedBody(now.body, time.perf_counter()), self._bounds,
+                             plans=self._quoted, first=now.waiting)
         return self._days.quoted(day, "", asked, reply)
 
     def accept(self, day: str, token: str, slot: int) -> None:
         """Have an order count in a slot. In place."""
-        self._days.accept(day, "", token, to_json({"slot": slot}))
+        self._days.accept(day, "", token, to_json({"slot": slot}),
+                          self._days.find(day, "").revision)
         self._runner.hurry()
 
     def close(self) -> None:

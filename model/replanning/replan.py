@@ -114,9 +114,8 @@ class Replanning:
             broken = check(problem, self._settled, past).violations
             workers = find_workers(problem, self.past, self._kept)
         refuse(as_given(terms.plan, self._settled, broken, PAST_RULES))
-        self._workers = workers
         self.left = what_is_left(problem, self.past, self._kept, workers)
-        self._judge = Memory(problem, self.past)
+        self._workers, self._judge = workers, Memory(problem, self.past)
         self.excused = tuple(item for item in broken if item.code not in PAST_RULES)
         """Rules that are broken already, which no plan can mend."""
 

@@ -38,7 +38,7 @@ class Departures:
             due = start + number * every
             if self._store.planned_at(day) < due and self._waits(day):
                 self._store.append(day, [ToldRow(f"departure:{number}", "clock", due)],
-                                   lambda _: None, BY_SERVICE)
+                                   lambda *_: None, BY_SERVICE)
 
     def _waits(self, day: str) -> bool:
         """Tell whether anybody of a day's plan waits for a later departure."""

@@ -31,6 +31,17 @@ class QuoteLapsedError(RequestError, status=410, name="quote-lapsed"):
     always = "No quote of this day has this token, or it has lapsed: ask for another."
 
 
+class SlotTakenError(RequestError, status=409, name="slot-taken"):
+    """A slot that was quoted can't be kept any more."""
+
+    title = "The slot can't be kept any more"
+    always = "The day has changed since the slot was quoted: ask for another quote."
+
+
+class DayMovedError(Exception):
+    """Something was told of a day since it was looked at."""
+
+
 class DayOverError(RequestError, status=409, name="day-over"):
     """The day is over."""
 

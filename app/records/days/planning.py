@@ -58,16 +58,17 @@ def asked(begun: Begun, told: ToldDay, plan: PlanInput | None,
     options["lateness_risk"] = risk_of(begun, told)
     request = {**begun.problem, "options": options}
     failed: dict[str, float] = {}
+    given: PlanInput | None = None
     if plan is None:
-        given = begun.problem.get("replan") or {"plan": {"routes": []}}
-        replan: Data = {"plan": given["plan"], "freeze_before": now}
+        first = begun.problem.get("replan") or {"plan": {"routes": []}}
+        replan: Data = {"plan": first["plan"], "freeze_before": now}
     else:
         sighted = late_by_position(begun, told, plan, seen)
         late = delayed(plan, told, seen, sighted)
         vehicles = {route.vehicle: OnTheRoad(steps.get(route.vehicle, ()),
                                              told.standings.get(route.vehicle, {}))
                     for route in late.routes}
-        going = going_on(late, vehicles, now)
+        going, given = going_on(late, vehicles, now)
         replan = dict(going.replan)
         replan["concerned"] = sorted({*sighted, *_concerned(plan, told, seen)})
         failed = {each.customer: each.parcel_back for each in going.failed if each.is_open}
@@ -85,8 +86,8 @@ def asked(begun: Begun, told: ToldDay, plan: PlanInput | None,
                          for order, each in {**wanted, **back}.items()]
     if not told.pins:
         return request
-    return pinned(request, told, PlanInput.model_validate(replan["plan"], strict=False), now,
-                  {} if plan is None else served_orders(plan, told))
+    return pinned(request, told, given or PlanInput.model_validate(replan["plan"], strict=False),
+                  now, {} if plan is None else served_orders(plan, told))
 
 
 def _search_time(within: float, beside: float, orders: int) -> float:

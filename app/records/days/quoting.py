@@ -4,14 +4,17 @@ A token holds the order and its slots, signed by the day's own secret: nothing i
 until it is accepted.
 """
 
+from dataclasses import dataclass
 from datetime import UTC, datetime, timedelta
 from hashlib import sha256
+from math import ceil
+from typing import NamedTuple
 
 from itsdangerous import BadData, URLSafeTimedSerializer
 from pydantic_core import from_json, to_json
 
 from app.records.days.errors import DayOverError, NoDayPlanError, QuoteLapsedError
-from app.records.days.fold import Data
+from app.records.days.fold import Data, visits
 from app.records.days.memory import DayMemory
 from app.records.days.planning import asked
 from app.records.days.rows import Begun
@@ -25,12 +28,25 @@ from app.schemas.quote import OrderAsked
 from app.records.clock import now_ms
 from app.records.dispatches.rows import DayRow
 
+AHEAD = 5.0
+"""Seconds of which all quotes are by their end, so that they are asked of the same: who has
+departed by then takes nobody more."""
+
 LAPSES = 120
 """Seconds in which a quote may be accepted."""
 
 
-def body_of(days: DayStore, dispatches: DispatchStore, row: DayRow, body: bytes,
-            memory: DayMemory) -> bytes:
+@dataclass(frozen=True)
+class AskedOfDay:
+    """A request of `POST /quote` about a day."""
+
+    body: bytes
+    waiting: list[str]  # orders that the plan lacks yet
+    revision: int  # of the day
+
+
+def asked_of(days: DayStore, dispatches: DispatchStore, row: DayRow, body: bytes,
+             memory: DayMemory) -> AskedOfDay:
     """Return the request of `POST /quote` that asks what a body does of a day as it stands now.
 
     Raises
@@ -38,7 +54,7 @@ def body_of(days: DayStore, dispatches: DispatchStore, row: DayRow, body: bytes,
     RequestError
         If the day is over or has no plan yet, or `body` is no valid request.
     """
-    begun = days.begun(row.id)
+    begun = memory.begun(days, row.id)
     read_model(body, OrderAsked, DayOfBody(to_json(begun.problem)))
     if row.ends_at <= now_ms():
         raise DayOverError
@@ -46,9 +62,20 @@ def body_of(days: DayStore, dispatches: DispatchStore, row: DayRow, body: bytes,
     if plan is None:
         raise NoDayPlanError
     told = memory.stood(days, row, begun).told
-    wanted = asked(begun, told, plan, dispatches.steps_by_vehicle(row.id),
-                   max(0.0, row.seconds(now_of(told))), row.planned)
-    return to_json({**dict(read_json(body)), "problem": wanted, "plan": wanted["replan"]["plan"]})
+    now = max(0.0, row.seconds(now_of(told)))
+    if told.clock is None:
+        now = AHEAD * ceil(now / AHEAD)
+
+    def make() -> bytes:
+        wanted = asked(begun, told, plan, dispatches.steps_by_vehicle(row.id), now, row.planned)
+        return to_json({"problem": wanted, "plan": wanted["replan"]["plan"]})[:-1]
+
+    about = memory.quoted(row.id, (row.revision, row.plan_number, row.planned, now), make)
+    planned = {name.partition("/")[0] for name in (
+        *(order for order, _, _ in visits(plan)), *(left.id for left in plan.unassigned))}
+    waiting = [order for order in (*told.customers, *told.shipments)
+               if order not in planned and order not in told.gone]
+    return AskedOfDay(b"%b,%b" % (about, to_json(read_json(body))[1:]), waiting, row.revision)
 
 
 def with_token(begun: Begun, body: bytes, reply: bytes) -> Data:
@@ -63,8 +90,15 @@ def with_token(begun: Begun, body: bytes, reply: bytes) -> Data:
                      "lapses_at": lapses_at}
 
 
-def accepted(begun: Begun, token: str, slot: int, now: float) -> Data:
-    """Return the event of an order that is accepted in a slot.
+class AcceptedSlot(NamedTuple):
+    """A slot of a quote that is to be accepted, and the order that follows from it."""
+
+    asked: bytes  # what is asked of the day once more
+    event: Data
+
+
+def accepted(begun: Begun, token: str, slot: int, now: float) -> AcceptedSlot:
+    """Return a slot of a quote, and the event by which its order is placed.
 
     Raises
     ------
@@ -78,15 +112,16 @@ def accepted(begun: Begun, token: str, slot: int, now: float) -> Data:
     except BadData as error:
         raise QuoteLapsedError from error
     slots: list[Data] = asked_for["slots"]
-    if slot >= len(slots) or not asked_for["kept"][slot]:
+    if slot >= len(slots) or not asked_for.pop("kept")[slot]:
         raise InvalidRequestError([InputError(
             code="OUT_OF_RANGE", path="$.slot", message="The quote has no such slot that can be "
             "kept: choose another.")])
     kind = "customer" if asked_for.get("order") is not None else "shipment"
     order: Data = asked_for["order"] if kind == "customer" else asked_for["shipment"]
     name = f"quote-{sha256(token.encode()).hexdigest()[:32]}"
-    return {"event_id": name, "kind": "order.placed", "at": now,
-            kind: _within(order, slots[slot], kind == "shipment")}
+    return AcceptedSlot(to_json({**asked_for, "slots": [slots[slot]]}), {
+        "event_id": name, "kind": "order.placed", "at": now,
+        kind: _within(order, slots[slot], kind == "shipment")})
 
 
 def _within(order: Data, slot: Data, is_shipment: bool) -> Data:

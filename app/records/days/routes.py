@@ -2,17 +2,19 @@
 
 import asyncio
 from collections.abc import AsyncGenerator
+from contextlib import suppress
 from functools import partial
 from typing import Annotated, Any
 
 from fastapi import APIRouter, Header, Path, Query, Request, Response
 from pydantic import BaseModel
-from pydantic_core import to_json
+from pydantic_core import from_json, to_json
 from sqlalchemy import Engine
 from sse_starlette import EventSourceResponse, ServerSentEvent
 
 from app.plans import answers
 from app.plans.routes import Plans
+from app.records.days.errors import DayMovedError, SlotTakenError
 from app.records.days.events import DayEventsRequest
 from app.records.days.fold import KINDS
 from app.records.days.memory import DayMemory
@@ -54,6 +56,9 @@ TOLD = problems(400, 413, 422, _404="There is no such day, or it is another's.",
                 _409="The day is over, or full.", _503=UNAVAILABLE)
 
 QUOTED = TOLD | problems(_409="The day is over, or has no plan yet.")
+
+ASKED_AGAIN = 20
+"""How often it is asked whether a slot can still be kept, where something is told meanwhile."""
 
 Token = Annotated[str, Path(max_length=20_000, description="That of the quote.")]
 DayId = Annotated[str, Path(max_length=64, description="Id of the day.")]
@@ -102,8 +107,8 @@ async def quote_day(request: Request, day_id: DayId, principal: Jobs, database: 
     """Return for each slot whether the day can keep it and its cost, and a token to accept one."""
     asked = await database.reach(lambda engine: _service(request, engine).asked_of(
         day_id, principal.key_id, body.content))
-    reply = await plans.answer(planning, request, answers.quote,
-                               ReceivedBody(asked, body.received_at))
+    reply = await plans.answer(planning, request, answers.quote_day,
+                               ReceivedBody(asked.body, body.received_at), asked.waiting)
     quoted = await database.reach(lambda engine: _service(request, engine).quoted(
         day_id, principal.key_id, body.content, reply))
     return Response(to_json(quoted), media_type="application/json")
@@ -111,14 +116,30 @@ async def quote_day(request: Request, day_id: DayId, principal: Jobs, database: 
 
 @router.post("/days/{day_id}/quotes/{token}/accept", summary="Accept a slot", status_code=202,
              response_model=DayEventsReply, openapi_extra=json_body(AcceptRequest),
-             responses=TOLD | problems(_410="The quote has lapsed."))
+             responses=TOLD | problems(
+                 _409="The slot can't be kept any more, or the day is over, or full.",
+                 _410="The quote has lapsed."))
 async def accept_quote(request: Request, day_id: DayId, token: Token, principal: Jobs,
-                       database: Database, body: Body) -> Response:
-    """Have the order count, to be served in the slot; accepted again, it counts once."""
-    reply = await database.reach(lambda engine: _service(request, engine).accept(
-        day_id, principal.key_id, token, body.content))
-    _hurry(request)
-    return _json(reply, 202)
+                       database: Database, planning: Planning, plans: Plans,
+                       body: Body) -> Response:
+    """Have the order count, if the slot can still be kept; accepted again, it counts once."""
+    for _ in range(ASKED_AGAIN):
+        asked = await database.reach(lambda engine: _service(request, engine).asked_again(
+            day_id, principal.key_id, token, body.content))
+        if isinstance(asked, DayEventsReply):
+            return _json(asked, 202)
+        # Others may have accepted theirs meanwhile, and vehicles have departed.
+        reply = await plans.answer(planning, request, answers.quote_day,
+                                   ReceivedBody(asked.body, body.received_at), asked.waiting)
+        if from_json(reply)["best"] is None:
+            break
+        accept = partial(lambda revision, engine: _service(request, engine).accept(
+            day_id, principal.key_id, token, body.content, revision), asked.revision)
+        with suppress(DayMovedError):
+            taken = await database.reach(accept)
+            _hurry(request)
+            return _json(taken, 202)
+    raise SlotTakenError
 
 
 @router.get("/days/{day_id}/links", summary="Get customers' links",

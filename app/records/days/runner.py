@@ -203,7 +203,7 @@ class DayRunner:
 
     def _make(self, day: DayRow) -> None:
         began = time.monotonic()
-        begun = self._store.begun(day.id)
+        begun = self.memory.begun(self._store, day.id)
         until = time.monotonic() + MENDING * begun.terms.plan_within
         log, told = self.memory.stood(self._store, day, begun)
         before = self.memory.plan(self._store, day)

@@ -2,8 +2,9 @@
 
 import re
 import secrets
-from collections.abc import Collection, Iterable, Iterator, Sequence
+from collections.abc import Collection, Iterator, Sequence
 from datetime import UTC, datetime, timedelta
+from functools import partial
 from typing import Any
 
 from pydantic_core import from_json, to_json
@@ -11,23 +12,25 @@ from pydantic_core import from_json, to_json
 from app.records.clock import now_ms
 from app.records.days.customers import links_of
 from app.records.days.errors import (
-    DayOverError, TooManyDayEventsError, UnknownDayError,
+    DayMovedError, DayOverError, TooManyDayEventsError, UnknownDayError,
 )
 from app.records.days.events import (
     AnyEvent, DayEventsRequest, DroneFlown, DroneLost, OrderCancelled, OrderPinned, OrderStated,
 )
-from app.records.days.fold import ToldDay, visits
+from app.records.days.fold import ToldDay
 from app.records.days.memory import DayMemory
 from app.records.days.news import served_orders
 from app.records.days.pins import too_many
-from app.records.days.quoting import accepted, body_of, with_token
+from app.records.days.quoting import (
+    AcceptedSlot, AskedOfDay, accepted, asked_of, with_token,
+)
 from app.records.days.rows import Begun, DayTerms, LoggedEvent
 from app.records.days.runner import now_of
 from app.records.days.schemas import (
     AcceptRequest, CustomerLinksReply, DayEventsReply, DayReply, DayRequest, LoggedReply,
-    OrderReply, OrderState, PinReply, TakenReply, VehicleReply,
+    TakenReply,
 )
-from app.records.days.spreads import chance_of
+from app.records.days.standings import orders_of, vehicles_of
 from app.records.days.store import BY_CLIENT, DayStore
 from app.records.days.telling import Steps
 from app.records.days.views import plan_of, problem_of
@@ -111,18 +114,21 @@ class DayService:
             raise UnknownDayError
         return row
 
-    def tell(self, name: str, owner: str, body: bytes) -> DayEventsReply:
+    def tell(self, name: str, owner: str, body: bytes,
+             revision: int | None = None) -> DayEventsReply:
         """Keep what happened. In place.
 
         Raises
         ------
         RequestError
             If there is no such day, it is over or full, or `body` is no valid list of events.
+        DayMovedError
+            If the day has another `revision`, where one is stated.
         """
         row = self.find(name, owner)
         if row.ends_at <= now_ms():
             raise DayOverError
-        begun = self._store.begun(row.id)
+        begun = self._memory.begun(self._store, row.id)
         day = DayOfBody(to_json(begun.problem))
         events = read_events(body, day)
         raw = read_json(body)
@@ -135,35 +141,57 @@ class DayService:
         steps = Steps(plan, dict(told.standings))
         rows = [steps.row(event, round(row.plan_start + 1000 * event.at), raw[number])
                 for number, event in sorted(new, key=lambda each: each[1].at)]
-        self._store.append(row.id, rows, _refuse_events)
+        self._store.append(row.id, rows, partial(_refuse_events, revision))
         numbers = self._store.numbers(row.id, [event.event_id for event in events])
         return DayEventsReply(
             accepted=[TakenReply(event_id=event.event_id, number=numbers[event.event_id])
                       for event in events],
             revision=self.find(name, owner).revision)
 
-    def asked_of(self, name: str, owner: str, body: bytes) -> bytes:
-        """Return the request of `POST /quote` about a day as it stands; raises as `body_of`."""
-        return body_of(self._store, self._dispatches, self.find(name, owner), body, self._memory)
+    def asked_of(self, name: str, owner: str, body: bytes) -> AskedOfDay:
+        """Return the request of `POST /quote` about a day as it stands; raises as the function."""
+        return asked_of(self._store, self._dispatches, self.find(name, owner), body, self._memory)
 
     def quoted(self, name: str, owner: str, body: bytes, reply: bytes) -> dict[str, Any]:
         """Return the reply to a quote with a token; raises as `find` does."""
-        return with_token(self._store.begun(self.find(name, owner).id), body, reply)
+        return with_token(
+            self._memory.begun(self._store, self.find(name, owner).id), body, reply)
 
-    def accept(self, name: str, owner: str, token: str, body: bytes) -> DayEventsReply:
-        """Have an order count in a slot that was quoted; again, it counts once. In place.
+    def asked_again(self, name: str, owner: str, token: str,
+                    body: bytes) -> AskedOfDay | DayEventsReply:
+        """Return what asks whether a slot of a quote can still be kept; or that it was accepted.
 
         Raises
         ------
         RequestError
             If there is no such day, the quote has lapsed, or `body` names none of its slots.
         """
+        row, slot = self._accepted(name, owner, token, body)
+        if self._store.numbers(row.id, [slot.event["event_id"]]):
+            return self.tell(name, owner, to_json([slot.event]))
+        return asked_of(self._store, self._dispatches, row, slot.asked, self._memory)
+
+    def accept(self, name: str, owner: str, token: str, body: bytes,
+               revision: int) -> DayEventsReply:
+        """Have an order count in a slot of a quote. In place.
+
+        Raises
+        ------
+        RequestError
+            As `asked_again` does.
+        DayMovedError
+            If the day has another revision than that by which the slot can be kept.
+        """
+        _, slot = self._accepted(name, owner, token, body)
+        return self.tell(name, owner, to_json([slot.event]), revision)
+
+    def _accepted(self, name: str, owner: str, token: str,
+                  body: bytes) -> tuple[DayRow, AcceptedSlot]:
         row = self.find(name, owner)
-        begun = self._store.begun(row.id)
+        begun = self._memory.begun(self._store, row.id)
         told = self._memory.stood(self._store, row, begun).told
-        event = accepted(begun, token, read_model(body, AcceptRequest).slot,
-                         max(0.0, row.seconds(now_of(told))))
-        return self.tell(name, owner, to_json([event]))
+        return row, accepted(begun, token, read_model(body, AcceptRequest).slot,
+                             max(0.0, row.seconds(now_of(told))))
 
     def plan(self, name: str, owner: str, times: Times | None = None) -> dict[str, Any]:
         """Return a day's plan, and which it is; times as its problem asks for, or as stated.
@@ -180,7 +208,7 @@ class DayService:
     def links(self, name: str, owner: str, base: str) -> CustomerLinksReply:
         """Return a link for each order, `base` being the service's address; raises as `find`."""
         row = self.find(name, owner)
-        begun = self._store.begun(row.id)
+        begun = self._memory.begun(self._store, row.id)
         told = self._memory.stood(self._store, row, begun).told
         plan = self._memory.plan(self._store, row) or NO_PLAN
         return CustomerLinksReply(links=links_of(base, begun, row, told, plan))
@@ -192,7 +220,7 @@ class DayService:
     def read(self, name: str, owner: str) -> DayReply:
         """Return how a day stands; raises as `find` does."""
         row = self.find(name, owner)
-        told = self._memory.stood(self._store, row, self._store.begun(row.id)).told
+        told = self._memory.stood(self._store, row, self._memory.begun(self._store, row.id)).told
         plan = self._memory.plan(self._store, row) or NO_PLAN
         return DayReply(
             id=row.told_name, dispatch=row.id, time_zone=row.time_zone,
@@ -200,8 +228,8 @@ class DayService:
             now=row.seconds(now_of(told)), is_rehearsed=told.clock is not None,
             revision=row.revision, planned=row.planned,
             is_planned=row.planned >= row.asked, plan_number=row.plan_number, failure=row.failure,
-            orders=list(_orders(told, plan, row.seconds(now_of(told)))),
-            vehicles=_vehicles(told, plan, row), out=told.out)
+            orders=list(orders_of(told, plan, row.seconds(now_of(told)))),
+            vehicles=vehicles_of(told, plan, row), out=told.out)
 
     def _require_known(self, problem: dict[str, Any], told: ToldDay, plan: PlanInput,
                        events: Sequence[tuple[int, AnyEvent]], raw: Any) -> None:
@@ -288,8 +316,10 @@ def read_events(body: bytes, day: DayOfBody) -> list[AnyEvent]:
                                    for each in error.errors]) from error
 
 
-def _refuse_events(count: int) -> None:
-    if count > MAX_EVENTS:
+def _refuse_events(since: int | None, revision: int, count: int) -> None:
+    if since is not None and since != revision:
+        raise DayMovedError
+    if revision + count > MAX_EVENTS:
         raise TooManyDayEventsError(MAX_EVENTS)
 
 
@@ -312,53 +342,3 @@ def _is_of(name: str, counts: dict[str, int]) -> bool:
     """Tell whether a vehicle, or a drone of it, is of the fleet."""
     kind, _, number = name.partition("/")[0].rpartition("-")
     return number.isdecimal() and 1 <= int(number) <= counts.get(kind, 0)
-
-
-def _orders(told: ToldDay, plan: PlanInput, now: float) -> Iterable[OrderReply]:
-    """Yield how orders stand: those of the plan, those it leaves out, and those it lacks yet."""
-    served = served_orders(plan, told)
-    seen: set[str] = set()
-    for order, vehicle, visit in visits(plan):
-        seen.add(order)
-        state: OrderState = "planned"
-        if order in told.elsewhere:
-            state, vehicle = "served", told.elsewhere[order]
-        elif order in served:
-            state = "served" if served[order] else "failed"
-        elif visit.departure <= now:
-            state = "doubtful"
-        yield OrderReply(id=order, state=state, vehicle=vehicle, arrival=visit.arrival,
-                         told=told.etas.get(order), at_risk=order in told.at_risk,
-                         pinned=_pin(told, order),
-                         remedy=told.at_risk.get(order, {}).get("remedy"), **chance_of(visit))
-    for left in plan.unassigned:
-        seen.add(left.id)
-        yield OrderReply(id=left.id, state="left_out", at_risk=left.id in told.at_risk,
-                         pinned=_pin(told, left.id))
-    whole = {name.partition("/")[0] for name in seen}
-    for order in (*told.customers, *told.shipments):
-        if order not in seen and order not in whole:
-            pin = _pin(told, order)
-            is_left_out = pin is not None and pin.vehicle is None
-            yield OrderReply(id=order, vehicle=told.elsewhere.get(order), pinned=pin,
-                             state="served" if order in told.elsewhere
-                             else "left_out" if is_left_out else "waiting")
-
-
-def _pin(told: ToldDay, order: str) -> PinReply | None:
-    pin = told.pins.get(order.partition("/")[0])
-    return None if pin is None else PinReply(**pin._asdict())
-
-
-def _vehicles(told: ToldDay, plan: PlanInput, row: DayRow) -> list[VehicleReply]:
-    names = dict.fromkeys([*(route.vehicle for route in plan.routes), *told.told_at])
-    listed = []
-    for name in names:
-        done, failed = told.count(name)
-        at, seen = told.told_at.get(name), told.sighted.get(name)
-        listed.append(VehicleReply(
-            vehicle=name, told_at=None if at is None else row.seconds(at), done=done,
-            failed=failed, position=None if seen is None else tuple(seen.about["location"]),
-            position_at=None if seen is None else row.seconds(seen.time),
-            broken=name in told.out))
-    return listed

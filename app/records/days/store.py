@@ -80,19 +80,19 @@ class DayStore:
         with self._engine.connect() as connection:
             return [LoggedEvent(*row) for row in connection.execute(statement)]
 
-    def append(self, day: str, events: Sequence[ToldRow], refuse: Callable[[int], None],
+    def append(self, day: str, events: Sequence[ToldRow], refuse: Callable[[int, int], None],
                origin: str = BY_CLIENT) -> None:
         """Keep events that aren't there yet, unless `refuse` raises. In place.
 
-        `refuse` is told how many the day would have.
+        `refuse` is told how many the day has, and how many would be new; not if none would.
         """
         names = [event.id for event in events]
         with self._engine.begin() as connection:
             revision = revision_of(connection, DAYS.c.id == day) or 0
             there = _numbers(connection, day, names, origin)
             new = {event.id: event for event in events if event.id not in there}
-            refuse(revision + len(new))
             if new:
+                refuse(revision, len(new))
                 add_events(connection, day, revision, origin, list(new.values()))
 
     def numbers(self, day: str, names: Collection[str]) -> dict[str, int]:

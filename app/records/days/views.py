@@ -19,7 +19,7 @@ from app.schemas.times import read_body
 
 def problem_of(store: DayStore, memory: DayMemory, row: DayRow) -> dict[str, Any]:
     """Return a day's problem with the orders that were told."""
-    begun = store.begun(row.id)
+    begun = memory.begun(store, row.id)
     told = memory.stood(store, row, begun).told
     plan = memory.plan(store, row)
     planned = set() if plan is None else {

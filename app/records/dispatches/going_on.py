@@ -2,6 +2,7 @@
 
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from typing import NamedTuple
 
 from app.records.dispatches.doubts import Answers, DoubtfulOrder, answered, doubts_of
 from app.records.dispatches.retiming import Retimed, retime
@@ -27,8 +28,15 @@ class OnTheRoad:
     standing: Standing
 
 
+class GoneOn(NamedTuple):
+    """How to plan on, and the plan that is given for it."""
+
+    reply: GoingOnReply
+    given: PlanInput
+
+
 def going_on(plan: PlanInput, vehicles: Mapping[str, OnTheRoad], now: float,
-             answers: Answers = NOBODY_KNOWS) -> GoingOnReply:
+             answers: Answers = NOBODY_KNOWS) -> GoneOn:
     """Return how to plan on, by what drivers told.
 
     Parameters
@@ -70,8 +78,8 @@ def going_on(plan: PlanInput, vehicles: Mapping[str, OnTheRoad], now: float,
     replan["doubtful"] = [doubt.customer for doubt in doubtful
                           if doubt.customer not in {*answers.served, *answers.unserved}
                           and (doubt.is_served or doubt.customer in stays)]
-    return GoingOnReply(replan=replan, broken=broken, grounded=grounded, told=told, failed=failed,
-                        doubtful=doubtful)
+    return GoneOn(GoingOnReply(replan=replan, broken=broken, grounded=grounded, told=told,
+                               failed=failed, doubtful=doubtful), given)
 
 
 def _reply(doubt: DoubtfulOrder, standing: Standing | None) -> DoubtfulReply:

@@ -186,7 +186,7 @@ class DispatchService:
             now = max(0.0, (now_ms() - row.plan_start) / 1000)
         vehicles = {followed.link.vehicle: OnTheRoad(followed.steps, followed.standing)
                     for followed in self._followed(row, {}).links}
-        return going_on(self._store.plan(row.id), vehicles, now, answers)
+        return going_on(self._store.plan(row.id), vehicles, now, answers).reply
 
     def _flown(self, request: PlannedProblem, row: DayRow) -> Flown:
         """Return the flights of a plan."""

@@ -1,13 +1,17 @@
 """Quotes of days: prices of slots, and orders accepted in them."""
 
 import random
+import threading
 from collections.abc import Iterator
+from concurrent.futures import ThreadPoolExecutor
+from contextlib import suppress
 from typing import Any
 
 import httpx
 import pytest
 
 from app.records.days import quoting
+from app.records.days.store import DayStore
 from app.schemas.quote import QuoteReply
 from app.serving.settings import Settings
 from tests.app.conftest import SearchingPlanner, ready, serving
@@ -107,6 +111,56 @@ def test_quote_goes_by_the_day_as_it_stands(service: httpx.Client) -> None:
     assert late[1]["arrival"] >= 3000
     assert late[1]["vehicle"] in {*served_by(plan_of(service, day)).values(), "van-1", "van-2",
                                   "van-3"}
+
+
+def accepting(client: httpx.Client, day: str, token: str) -> httpx.Response:
+    """Accept the first slot of a quote."""
+    return client.post(f"/days/{day}/quotes/{token}/accept", json={"slot": 0})
+
+
+def test_of_two_who_accept_the_last_slot_at_once_one_is_refused(
+        service: httpx.Client, monkeypatch: pytest.MonkeyPatch) -> None:
+    van = PROBLEM["fleet"][0] | {"capacity": [7], "count": 1, "max_trips": 1}
+    day = begun(service, PROBLEM | {"fleet": [van]})
+    tokens = [quoted(service, day, [{"latest": 5000}], order=order(name, 1, 0)["customer"])["token"]
+              for name in "NM"]
+    append, both = DayStore.append, threading.Barrier(2)
+
+    def append_at_once(*args: Any) -> None:
+        with suppress(threading.BrokenBarrierError):
+            both.wait(60)
+        append(*args)
+
+    monkeypatch.setattr(DayStore, "append", append_at_once)
+    with ThreadPoolExecutor(2) as pool:
+        replies = list(pool.map(lambda token: accepting(service, day, token), tokens))
+    assert sorted(reply.status_code for reply in replies) == [202, 409]
+    refused = max(replies, key=lambda reply: reply.status_code).json()
+    assert refused["type"].endswith("slot-taken")
+    kept = "NM"[replies.index(min(replies, key=lambda reply: reply.status_code))]
+    orders = {each.id: each.state for each in planned(service, day).orders}
+    assert {order: state for order, state in orders.items() if order in "NM"} == {kept: "planned"}
+
+
+def test_slot_is_accepted_if_the_day_still_has_room(service: httpx.Client) -> None:
+    van = PROBLEM["fleet"][0] | {"capacity": [8], "count": 1, "max_trips": 1}
+    day = begun(service, PROBLEM | {"fleet": [van]})
+    asked = {name: quoted(service, day, [{"latest": 5000}], order=order(name, 1, 0)["customer"])
+             for name in "NMO"}
+    # None is planned yet as the next is accepted, or it is: both are alike.
+    codes = [accepting(service, day, quote["token"]).status_code for quote in asked.values()]
+    assert codes == [202, 202, 409]
+    more = quoted(service, day, [{"latest": 5000}], order=order("P", 1, 0)["customer"])
+    assert more["best"] is None
+    orders = {each.id: each.state for each in planned(service, day).orders}
+    assert (orders["N"], orders["M"]) == ("planned", "planned")
+
+
+def test_slot_that_has_passed_is_accepted_no_more(service: httpx.Client) -> None:
+    day = begun(service)
+    token = quoted(service, day, [{"latest": 400}])["token"]
+    told(service, day, clock(), at=3000)
+    assert accepting(service, day, token).status_code == 409
 
 
 def test_only_what_was_quoted_is_accepted_and_only_soon(

@@ -27,9 +27,10 @@ def gone_on(told: dict[str, dict[str, ToldStep]], now: float, served: Iterable[s
             unserved: Iterable[str] = ()) -> GoingOnReply:
     """Return how to plan on, by what was told of each vehicle, and of whom nobody told."""
     maker = StepMaker(REQUEST.problem)
-    return going_on(REQUEST.plan, {
-        route.vehicle: OnTheRoad(maker.steps(route), told.get(route.vehicle, {}))
-        for route in REQUEST.plan.routes}, now, Answers(frozenset(served), frozenset(unserved)))
+    vehicles = {route.vehicle: OnTheRoad(maker.steps(route), told.get(route.vehicle, {}))
+                for route in REQUEST.plan.routes}
+    answers = Answers(frozenset(served), frozenset(unserved))
+    return going_on(REQUEST.plan, vehicles, now, answers).reply
 
 
 def route_of(reply: GoingOnReply, vehicle: str) -> Data:

@@ -81,7 +81,7 @@ def gone_on(told: dict[str, ToldStep], now: float) -> GoingOnReply:
     request = DispatchRequest.model_validate({"problem": SITES, "plan": SITES_PLAN}, strict=False)
     (route,) = request.plan.routes
     steps = StepMaker(request.problem).steps(route)
-    return going_on(request.plan, {"truck-1": OnTheRoad(steps, told)}, now)
+    return going_on(request.plan, {"truck-1": OnTheRoad(steps, told)}, now).reply
 
 
 def stops_of(reply: GoingOnReply) -> list[tuple[str, str]]:
@@ -124,7 +124,7 @@ def test_truck_goes_home_from_where_its_only_launch_failed(client: httpx.Client)
     (route,) = request.plan.routes
     told = {DEPART: ToldStep("done", 30_000), LAUNCH: ToldStep("failed", 30_340, "Wind")}
     reply = going_on(request.plan, {"truck-1": OnTheRoad(
-        StepMaker(request.problem).steps(route), told)}, 30_400)
+        StepMaker(request.problem).steps(route), told)}, 30_400).reply
     assert stops_of(reply) == [("depot", "hub"), ("launch_site", "pier"), ("depot", "hub")]
     again = client.post("/plan", json=problem | {"replan": reply.replan})
     assert again.status_code == 200, again.text
