@@ -25,7 +25,7 @@ from tests.model.tiny import draw_tiny, with_drone_types, with_gaps, with_setups
 from tests.model.tiny_breaks import short_day, with_breaks
 from tests.model.tiny_company import with_order, with_order_across
 from tests.model.tiny_shipments import with_shipments
-from tests.seeds import often
+from tests.seeds import often, seeds
 
 pytestmark = pytest.mark.slow
 
@@ -98,7 +98,7 @@ def late(rng: np.random.Generator) -> Problem:
 
 
 @pytest.mark.parametrize(("draw", "seed"), [
-    *((drawn, seed) for seed in range(8)), *((in_order, seed) for seed in range(3)),
+    *((drawn, seed) for seed in seeds(8)), *((in_order, seed) for seed in seeds(3)),
     *((late, seed) for seed in (12, 27))])
 def test_search_finds_the_cheapest_plan_with_breaks(
         draw: Callable[[np.random.Generator], Problem], seed: int) -> None:

@@ -96,7 +96,7 @@ def crossed(kind: VehicleType) -> tuple[Problem, Solution, float]:
 def test_tails_are_exchanged(kind: VehicleType) -> None:
     problem, start, straight = crossed(kind)
     assert straight < check(problem, start).cost.total - 10
-    for seed in range(3):
+    for seed in seeds(3):
         assert improved_cost(problem, start, 2000, seed) <= straight * (1 + 1e-9)
 
 
@@ -120,7 +120,7 @@ def test_tails_are_exchanged_between_trucks_of_other_depots() -> None:
     start = planned(up[:12] + down[12:], down[:12] + up[12:])
     straight = check(problem, planned(up, down)).cost.total
     assert straight < check(problem, start).cost.total - 10
-    for seed in range(3):
+    for seed in seeds(3):
         assert improved_cost(problem, start, 4000, seed) <= straight * (1 + 1e-9)
 
 
@@ -130,7 +130,7 @@ def test_customers_who_pay_together_are_served_though_more_are_left_out() -> Non
     truck = replace(TRUCK, count=5, capacity=(8000,))
     problem = replace(on_a_plane(groups, truck), unassigned_cost=6.0)
     start = Solution((), tuple(range(1, problem.num_nodes)))
-    for seed in range(3):
+    for seed in seeds(3):
         # Each place pays 48 and takes 28 to 42 to get to.
         assert improved_cost(problem, start, 2000, seed) < 0.9 * 48 * len(places)
 
@@ -143,7 +143,7 @@ def test_a_tail_becomes_a_route_of_its_own() -> None:
                                             for customer in problem.customers[14:]))
     problem = replace(problem, customers=customers)
     start = plan(problem, (0, range(1, 29)))
-    for seed in range(3):
+    for seed in seeds(3):
         # One truck for both waits for hours, which are paid; two trucks drive no farther.
         cost = improved_cost(problem, start, 1000, seed)
         assert cost < check(problem, start).cost.total - 10
@@ -157,7 +157,7 @@ def test_vehicles_are_traded() -> None:
     problem = on_a_plane([*near, *far], thrifty, thirsty)
     start = plan(problem, (0, range(1, 15)), (1, range(15, 29)))
     traded = plan(problem, (0, range(15, 29)), (1, range(1, 15)))
-    for seed in range(3):
+    for seed in seeds(3):
         cost = improved_cost(problem, start, 300, seed)
         assert cost <= check(problem, traded).cost.total * (1 + 1e-9)
 
@@ -170,7 +170,7 @@ def test_cheaper_vehicles_left_over_are_taken() -> None:
     problem = on_a_plane([*near, *far], large, small)
     start = plan(problem, (0, range(1, 15)), (0, range(15, 29)))
     smaller = plan(problem, (1, range(1, 15)), (1, range(15, 29)))
-    for seed in range(3):
+    for seed in seeds(3):
         cost = improved_cost(problem, start, 300, seed)
         assert cost <= check(problem, smaller).cost.total * (1 + 1e-9)
 
@@ -182,7 +182,7 @@ def test_a_larger_vehicle_makes_room_for_a_customer_more() -> None:
     problem = on_a_plane(places, small, large)
     start = plan(problem, (0, range(1, 15)), (0, (15,)))
     alone = plan(problem, (1, range(1, 16)))
-    for seed in range(3):
+    for seed in seeds(3):
         cost = improved_cost(problem, start, 300, seed)
         assert cost <= check(problem, alone).cost.total * (1 + 1e-9)
 
@@ -206,7 +206,7 @@ LARGE = replace(TRUCK, id="large", capacity=(10_000,), fixed_cost=5.0, max_trips
 FAR_OFF = [(10.0, index / 10) for index in range(10)]
 
 
-@pytest.mark.parametrize("seed", range(3))
+@pytest.mark.parametrize("seed", seeds(3))
 def test_routes_of_several_trips_change_their_vehicle(seed: int) -> None:
     problem = on_a_plane(FAR_OFF, SMALL, LARGE)
     trips = tuple(TripDecision((0, 1 + first, 2 + first, 0)) for first in range(0, 10, 2))
@@ -232,7 +232,7 @@ def test_sorties_of_several_change_to_no_drone_that_lifts_less() -> None:
     assert pairs > 0
 
 
-@pytest.mark.parametrize("seed", range(8))
+@pytest.mark.parametrize("seed", seeds(8))
 def test_routes_of_two_trips_are_given_to_no_truck_that_drives_one(seed: int) -> None:
     places = np.random.default_rng(seed).uniform(-9, 9, (16, 2)).tolist()
     shuttle = VehicleType("shuttle", 3, (4000,), 0, fixed_cost=9.0, cost_per_km=1.0, max_trips=2)
@@ -244,7 +244,7 @@ def test_routes_of_two_trips_are_given_to_no_truck_that_drives_one(seed: int) ->
         assert check(problem, found.solution).violations == ()
 
 
-@pytest.mark.parametrize("seed", range(5))
+@pytest.mark.parametrize("seed", seeds(5))
 def test_customers_are_shared_out_between_two_trucks_and_their_drones(seed: int) -> None:
     places = [(23, -41), (-5, 20), (-28, 42), (38, -6), (38, -22), (1, -42)]
     drones = DroneType(1, (1000,), 0, endurance=160 * MINUTE, cost_per_km=0.1)
@@ -257,7 +257,7 @@ def test_customers_are_shared_out_between_two_trucks_and_their_drones(seed: int)
     assert evaluation.cost.total == pytest.approx(127.234, abs=0.001)
 
 
-@pytest.mark.parametrize("seed", range(4))
+@pytest.mark.parametrize("seed", seeds(4))
 def test_full_trucks_and_their_drones_are_not_given_more(seed: int) -> None:
     places = np.random.default_rng(seed).uniform(-40, 40, (30, 2)).tolist()
     truck = VehicleType("truck", 15, (3000,), 0, cost_per_km=1.0,
