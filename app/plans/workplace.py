@@ -12,7 +12,9 @@ from app.maps.roads.asked import AskedRoads, KnownRoads
 from app.plans.quoted_plans import QuotedPlans, quoted_plans
 from app.plans.service import PlanService
 from app.requests.bounds import Bounds
+from app.requests.shapes import shape_of
 from app.schemas.openapi import EXAMPLES_DIR
+from app.schemas.request import PlanRequest
 from app.serving.children.line import Line
 from app.serving.load.received import ReceivedBody
 from app.serving.observe.metrics import countable, countable_vroom
@@ -26,8 +28,10 @@ WARMING_SECONDS = 10.0
 def warmed(planner: Planner) -> Planner:
     """Return a planner once it has planned by each of its policies.
 
-    What plans need is loaded by the first, which takes longer than the shortest time limits.
+    What plans need is loaded by the first, which takes longer than the shortest time limits, and
+    the shape of long requests is made.
     """
+    shape_of(PlanRequest)
     service = PlanService(planner)
     example = from_json((EXAMPLES_DIR / "drones.json").read_bytes())
     for policy in planner.policies:

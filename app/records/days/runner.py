@@ -57,6 +57,10 @@ LEASE, RENEWAL = 4.0, 1.0
 MAX_DEATHS = 3
 """How often processes may die of one plan before it is given up until something else is told."""
 
+BESIDE = 6e-4
+"""Seconds, for each order, that a plan is held to take beside its search where another process made
+the one before."""
+
 MENDING = 0.5
 """Share of the time to a plan after which no remedy for an order at risk is looked for."""
 
@@ -243,9 +247,10 @@ class DayRunner:
         """Return what is asked for a day's next plan, and the reply."""
         steps = self._dispatches.steps_by_vehicle(day.id)
         kept: set[str] = set()
+        orders = 0 if before is None else len(told.customers) + len(told.shipments)
+        beside = self._beside.get(day.id, BESIDE * orders)
         while True:
-            wanted = asked(begun, told, before, steps, now, day.planned, kept,
-                           self._beside.get(day.id, 0.0))
+            wanted = asked(begun, told, before, steps, now, day.planned, kept, beside)
             body = to_json(wanted)
             try:
                 return body, self._plan(body, self._stopping.is_set)

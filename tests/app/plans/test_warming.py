@@ -7,6 +7,7 @@ import pytest
 from app.maps.roads.asked import KnownRoads
 from app.maps.roads.roads import NO_ROADS
 from app.plans import workplace
+from app.requests.shapes import shape_of
 from app.schemas.limits import DEFAULT_POLICY
 from app.serving.children.line import Line
 from app.serving.settings import Settings
@@ -31,9 +32,11 @@ class NotingPlanner(FirstFitPlanner):
 
 def test_who_plans_has_planned_by_each_policy_before(monkeypatch: pytest.MonkeyPatch) -> None:
     planner, (ours, theirs) = NotingPlanner(), Pipe()
+    shape_of.cache_clear()
     monkeypatch.setattr(workplace, "load_planner", lambda *_: planner)
     place = workplace.opened(Settings(), KnownRoads.of(NO_ROADS), Line(theirs))
     assert place.service.planner is planner
     assert planner.asked == [*planner.policies]
+    assert shape_of.cache_info().currsize == 1
     # Nobody asked for them, so they are not counted.
     assert not ours.poll()
