@@ -62,10 +62,7 @@ NOTED = """() => {
 """Notes how long is planned whenever that is told: on a busy machine planning ends unseen."""
 
 
-@pytest.mark.parametrize("width", [1440, 390])
-def test_a_limit_that_fits_the_size_is_chosen_and_told(open_page: Callable[..., Page],
-                                                       service: str, width: int) -> None:
-    page = open_page(service, viewport={"width": width, "height": 844})
+def test_a_limit_that_fits_the_size_is_chosen_and_told(page: Page) -> None:
     idle(page)
     page.evaluate(NOTED)
     open_file(page, "many.json", json.dumps(crowd(1800)))
