@@ -62,7 +62,7 @@ def answer_check(body: bytes, bounds: Bounds,
         "summary": summary_reply(task.problem, solution, evaluation),
         "warnings": warning_replies(warning.within(PROBLEM) for warning in task.warnings),
     }
-    if is_untimed or task.risk is not None:
+    if is_untimed or task.risk is not None or task.geometry is not None:
         reply["routes"] = task.routes_reply(solution, evaluation)
         task.tell_lateness(solution, reply["routes"], reply)
     task.telling.tell(CheckReply, reply)

@@ -52,8 +52,8 @@ class CheckReply(BaseModel):
     summary: SummaryReply = Field(description="The plan in numbers, computed anew.")
     routes: list[RouteReply | None] | None = Field(
         None, description="The plan's routes, computed anew, in its order; null for one that can't "
-        "be read. Left out unless the plan leaves out times, or `options.lateness_risk` asks for "
-        "it.")
+        "be read. Left out unless the plan leaves out times, or `options.lateness_risk` or "
+        "`options.geometry` asks for them.")
     lateness: LatenessRiskReply | None = Field(
         None, description=f"What is to be expected of promises. {RISK_TEXT}")
     warnings: list[WarningReply] = Field([], description=WARNINGS_TEXT)

@@ -16,7 +16,7 @@ from tests.app.maps.roads.wheels import WHEELS, pinned, unpacked
 from tests.conftest import PATIENCE, eventually
 from tests.console.conftest import opening
 from tests.console.serving import serving
-from tests.console.steps import idle, open_file, place_of, planned, state
+from tests.console.steps import awaited, idle, open_file, place_of, planned, state
 
 pytestmark = pytest.mark.slow
 
@@ -229,3 +229,47 @@ def test_leg_that_is_clicked_shows_its_road(shown: Page) -> None:
     for term in ("Road", "Takes", "Departure", "→"):
         expect(details).to_contain_text(term)
     assert len(lines[int(selection.rpartition("/")[2])]) > 2
+
+
+def roads_of(page: Page) -> int:
+    """Return how many legs of the plan that is shown follow roads, once it has legs."""
+    return sum(len(line) > 2 for line in page.evaluate(LEGS))
+
+
+def test_plan_that_is_changed_by_hand_keeps_to_the_roads(shown: Page) -> None:
+    planned_in(shown)
+    assert roads_of(shown) > 2
+    shown.evaluate("async () => (await loaded('actions.js')).select('c:park')")
+    details = shown.get_by_role("region", name="Details")
+    earlier, later = (details.get_by_role("button", name=name, exact=True)
+                      for name in ("Earlier", "Later"))
+    (earlier if earlier.is_enabled() else later).click()
+    expect(shown.locator("#hand-outcome")).to_be_visible()
+    assert roads_of(shown) > 2
+
+
+KEEP = """async ([isLinked]) => {
+  const load = (path) => loaded(`${path}.js`);
+  const [{ store }, api, { openKept, viewShared }] = await Promise.all(
+    ['store', 'api', 'keeping/kept'].map(load));
+  const { request, plans } = store.get();
+  const plan = structuredClone(plans.at(-1).plan);
+  if (!isLinked) {
+    for (const stop of plan.routes[0].trips[0].stops) delete stop.geometry;
+  }
+  const id = crypto.randomUUID();
+  await api.putKeptPlan(id, { name: id, note: '', request, plan }, null);
+  if (isLinked) await viewShared((await api.postLink(id)).token);
+  else await openKept({ where: 'service', id });
+  return id;
+}"""
+"""Keeps the plan that is shown, without its ways unless a link is made to it, and opens it."""
+
+
+@pytest.mark.parametrize("is_linked", [False, True], ids=["opened", "linked"])
+def test_roads_of_a_kept_plan_are_kept_or_asked_anew(shown: Page, is_linked: bool) -> None:
+    planned_in(shown)
+    roads = roads_of(shown)
+    name = awaited(shown, KEEP, [is_linked])
+    assert state(shown, "state.name") == name
+    assert roads_of(shown) == roads > 2

@@ -24,6 +24,16 @@ def test_a_reply_passed_back_unchanged_is_feasible_at_the_same_cost(
     assert verdict["summary"] == plan["summary"]
 
 
+def test_ways_of_a_plan_that_states_its_times_are_told_where_asked_for(
+        client: httpx.Client, smallest: Request) -> None:
+    plan = planned(client, smallest)
+    assert "routes" not in judged(client, smallest, plan)
+    smallest["options"] = {**smallest.get("options", {}), "geometry": True}
+    (route,) = judged(client, smallest, plan)["routes"]
+    assert all(stop["geometry"] for stop in route["trips"][0]["stops"][1:])
+    assert route["working_duration"] == plan["routes"][0]["working_duration"]
+
+
 def test_overtime_stops_and_co2_are_told_and_judged(client: httpx.Client,
                                                     smallest: Request) -> None:
     # A round of 16 km at 40 km/h takes 24 minutes.

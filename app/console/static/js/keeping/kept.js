@@ -87,13 +87,12 @@ export async function openKept({ where, id, day }) {
   if (!kept.plan) await plan();
 }
 
-/** Return a kept plan with the ways around closed air, which who kept it may have left out. */
+/** Return a kept plan with its ways on roads and in the air, which may have been left out. */
 async function withLines(kept) {
   const { request, plan: told } = kept;
-  const isKnown = told?.routes[0]?.trips[0].stops[1]?.geometry !== undefined;
-  if (!told || isKnown || !(request.airspace?.no_fly?.length || request.airspace?.zones?.length)) {
-    return kept;
-  }
+  const isKnown = Boolean(told?.routes[0]?.trips[0].stops[1]?.geometry);
+  const isPlain = request.coordinate_system !== 'geographic' && !request.airspace?.no_fly?.length;
+  if (!told || isKnown || isPlain) return kept;
   const asked = { problem: api.withWays(request), plan: told };
   const verdict = await attempt(() => api.postCheck(asked));
   return verdict ? { ...kept, plan: judgedPlan(told, told, verdict) } : kept;
