@@ -98,6 +98,11 @@ def guesses(heading: str) -> tuple[HeadingGuess, ...]:
             better = HeadingGuess(meaning, guess.score * 0.97, last, guess.language)
             if _takes(meaning, last) and better.score > found.get(meaning, better).score - 1e-9:
                 found[meaning] = better
+    spelled = len(words) > 1 and len(words[0]) > 3  # `Minutes at stop`, but no `min. age`
+    first = UNITS.get(words[0]) if spelled and unit is last is None else None
+    if first in DURATION_UNITS:
+        found |= {meaning: replace(guess, unit=first) for meaning, guess in found.items()
+                  if guess.unit is None and _takes(meaning, first)}
     _read_as_time(found, unit or last)
     said = unit or (last if last and len(words[-1]) > 1 else None) or _money_in(heading)
     found = {meaning: guess for meaning, guess in found.items() if _agrees(meaning, said)}

@@ -105,3 +105,12 @@ def test_a_number_or_a_courtesy_beside_a_name_is_not_the_name(head: str) -> None
 def test_an_end_beside_a_start_is_that_of_the_window() -> None:
     found = meanings(read("name,lat,lon,Start,End", "Anna,48.1,11.5,8:00,9:00"))
     assert [found["Start"], found["End"]] == ["earliest", "latest"]
+
+
+@pytest.mark.parametrize(("heading", "seconds"), [
+    ("Minutes at stop", 300), ("Minutes of service", 300)])
+def test_a_unit_that_begins_a_heading_is_stated(heading: str, seconds: float) -> None:
+    reply = read(f"name,lat,lon,{heading}", "Anna,48.1,11.5,5", "Ben,48.2,11.6,5")
+    assert reply.request is not None
+    assert reply.request["customers"][0]["service_duration"] == seconds
+    assert "UNIT_GUESSED" not in [doubt.code for doubt in reply.doubts]
