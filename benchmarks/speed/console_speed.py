@@ -2,7 +2,8 @@
 
 Starts the service and opens its console in Debian's Chromium (`CHROMIUM` names another), which
 plans the paper's hundred customers by itself; then presses Plan. Times are taken in the page, up
-to the frame after the cost of a first plan is shown, with which the map is drawn.
+to the frame after the cost of a first plan is shown, with which the map is drawn. Before that, the
+console is opened over a slow line by who has never been there, and by who comes again.
 """
 
 import json
@@ -60,6 +61,12 @@ COUNT = """() => {
   requestAnimationFrame(note);
 }"""
 COUNTED = "() => (cancelAnimationFrame(window.frameRequest), window.frames)"
+
+
+LINE = {"offline": False, "latency": 80, "downloadThroughput": 9e6 / 8, "uploadThroughput": 9e6 / 8}
+"""What a first open is measured over: 9 Mbit/s and 80 ms."""
+
+PAINT = """() => performance.getEntriesByName('first-contentful-paint')[0]?.startTime ?? NaN"""
 
 
 @contextmanager
@@ -124,10 +131,38 @@ def show_many(page: Page, number: int) -> None:
               f"95 % within {p95:.0f} ms")
 
 
+def open_over_line(chromium: Browser, address: str) -> Iterator[tuple[float, float, float]]:
+    """Yield ms to the first paint, to the plan, and kB, of a first visit and of another."""
+    context = chromium.new_context()
+    for _ in ("first", "again"):
+        page = context.new_page()
+        page.set_default_timeout(WAIT_MS)
+        session = context.new_cdp_session(page)
+        sizes: list[float] = []
+        session.on("Network.loadingFinished", lambda told, to=sizes: to.append(
+            told["encodedDataLength"]))
+        session.send("Network.enable")
+        session.send("Network.emulateNetworkConditions", LINE)
+        planned = first_plan(page, address)
+        yield page.evaluate(PAINT), planned, sum(sizes) / 1000
+        page.close()
+    context.close()
+
+
+def print_visits(chromium: Browser, address: str, runs: int) -> None:
+    """Print medians of first visits over a slow line, and of those again."""
+    visits = [[*open_over_line(chromium, address)] for _ in range(runs)]
+    for name, those in zip(("first visit", "again"), zip(*visits, strict=True), strict=True):
+        paint, planned, size = map(statistics.median, zip(*those, strict=True))
+        print(f"{name} over 9 Mbit/s and 80 ms: painted after {paint:.0f} ms, plan after "
+              f"{planned:.0f} ms, {size:.0f} kB")
+
+
 def main(runs: int = 10, many: str = "1000,10000") -> None:
     """Print medians and the longest, and what many customers take, for each of these numbers."""
     opened, pressed = [], []
     with service() as address, browser() as chromium:
+        print_visits(chromium, address, runs)
         for _ in range(runs):
             page = chromium.new_page()
             page.set_default_timeout(WAIT_MS)
