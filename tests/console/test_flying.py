@@ -61,7 +61,7 @@ def test_drones_of_hubs_that_fly_nothing_are_counted(page: Page) -> None:
     open_file(page, "hub.json", json.dumps(request))
     planned(page, "5 of 5 served")
     line = page.locator(".drones-line")
-    expect(line).to_contain_text("quad: 2 of 3 fly nothing.")
+    expect(line).to_contain_text("quad: 2 of 3 stay on the ground.")
     expect(line.get_by_role("status")).to_contain_text("2 drones serve ")
     expect(line.get_by_role("button", name="What do they save?")).to_have_count(0)
 

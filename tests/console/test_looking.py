@@ -66,6 +66,27 @@ def test_map_panel_and_timeline_are_linked_both_ways(page: Page) -> None:
     expect(page.locator(".stop-mark span").first).to_be_visible()
 
 
+def test_stops_have_numbers_where_there_is_room_and_all_of_whose_is_selected(page: Page) -> None:
+    open_example(page, "smallest")
+    numbers = page.locator(".stop-mark span")
+    expect(numbers).to_have_text(["1", "2"])
+    open_example(page, "table1")
+    stops = state(page, "state.plans.0.plan.routes.0.trips.0.stops.length")
+    page.evaluate("async () => (await loaded('actions.js')).select('t:0/0')")
+    expect(numbers).to_have_text([str(number) for number in range(1, stops - 1)])
+
+
+def test_timeline_is_no_higher_than_its_rows(page: Page) -> None:
+    open_example(page, "smallest")
+    few = page.locator(".timeline").bounding_box()
+    open_example(page, "table1")
+    idle(page)
+    many = page.locator(".timeline").bounding_box()
+    assert few is not None
+    assert many is not None
+    assert few["height"] < many["height"] <= 220
+
+
 def test_rates_are_shown_by_trip(console: Page) -> None:
     open_example(console, "hetero_day")
     open_tab(console, "routes")

@@ -46,7 +46,7 @@ test('where the plan is on a street its name stands beside', () => {
   const line = [[100, 500], [400, 500]];
   const route = Array.from({ length: 39 }, (_, index) => [100 + 8 * index, 500]);
   const [name] = placeNames([way('Busy', line)], FRAME, route);
-  assert.equal(Math.abs(name.y - 500), 12);
+  assert.equal(Math.abs(name.y - 500), 15);
   const both = route.flatMap(([x]) => [[x, 488], [x, 500], [x, 512]]);
   assert.deepEqual(placeNames([way('Full', line)], FRAME, both), []);
 });

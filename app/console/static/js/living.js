@@ -41,20 +41,23 @@ export function beginDay(isRehearsed) {
     const first = Math.min(...entry?.plan.routes.map(({ trips }) => trips[0].stops[0].departure)
       ?? [0]);
     const clock = Math.max(0, QUARTER * Math.floor(first / QUARTER - 1));
-    await openDay((await api.postDay({ problem, ...(isRehearsed && { clock }) })).id);
+    const begun = await api.postDay({ problem, ...(isRehearsed && { clock }) });
+    await openDay(begun.id, false, store.get().name);
   });
 }
 
 /** Open a day and follow it until something else is opened. */
-export async function openDay(id, isWall = false) {
+export async function openDay(id, isWall = false, name = null) {
   following.abort();
   following = new AbortController();
   const { signal } = following;
   const day = await api.getDay(id);
   const live = { id: day.id, isWall, day, base: null, since: null, changedAt: 0,
     changes: new Map(), news: new Map(), told: [], quote: null };
-  const opened = { name: day.id, isSafe: true, live, tab: 'drivers' };
-  openRequest(await api.getDay(id, '/problem'), opened);
+  const problem = await api.getDay(id, '/problem');
+  const dated = `${t('room.day')} ${problem.plan_start?.slice(0, 10) ?? ''}`.trim();
+  const opened = { name: name || dated, isSafe: true, live, tab: 'drivers' };
+  openRequest(problem, opened);
   history.replaceState(null, '', `#day=${encodeURIComponent(day.id)}${isWall ? '&wall' : ''}`);
   await refresh();
   followDispatch(day.dispatch);

@@ -2,9 +2,7 @@
 
 import { edit, openTab, select, shownPlan } from './actions.js';
 import { find } from './addressing.js';
-import {
-  askedFor, nowOf, orderOf, placeIn, withoutOrders, withSettled,
-} from './core/orders.js';
+import { askedFor, nowOf, orderOf, placeIn, withoutOrders, withSettled } from './core/orders.js';
 import { goOnFrom } from './core/replanning.js';
 import { askFit } from './hands.js';
 import { askQuote } from './quoting.js';

@@ -108,7 +108,7 @@ function servedFacts(index, halt, key) {
 export function haltFacts(halt) {
   const facts = [
     [t('about.servedBy'), nameOfVehicle(halt.sortie ? halt.sortie.drone : halt.vehicle.name)],
-    [t('about.arrival'), clock(halt.arrival, { precise: true })]];
+    [t('about.arrival'), clock(halt.arrival)]];
   if (!isVisit(halt)) facts[0][0] = t('about.vehicle');
   if (halt.alternative) facts.push([t('about.servedAt'), halt.alternative]);
   if (halt.part) facts.push([t('about.part'), halt.part]);
@@ -118,10 +118,10 @@ export function haltFacts(halt) {
       t('about.waits'),
       t('about.waitsUntil', {
         time: duration(halt.waiting),
-        until: clock(halt.serviceStart, { precise: true }),
+        until: clock(halt.serviceStart),
       })]);
   }
-  facts.push([t('about.departure'), clock(halt.departure, { precise: true })]);
+  facts.push([t('about.departure'), clock(halt.departure)]);
   if (halt.lateness > 0) facts.push([t('about.lateBy'), duration(halt.lateness)]);
   if (halt.chance) facts.push([t('about.chance'), percent(halt.chance)]);
   facts.push([halt.sortie ? t('about.payload') : t('about.load'), amounts(halt.load)]);
@@ -185,8 +185,8 @@ function describeLeg(request, index, key) {
       [flies ? t('about.flownBy') : t('about.drivenBy'), nameOfVehicle(trip.vehicle.name)],
       [flies ? t('about.flown') : drivenInWords(leg), length(metres)],
       [t('about.takes'), duration(leg.arrival - before.departure)],
-      [t('about.departure'), clock(before.departure, { precise: true })],
-      [t('about.arrival'), clock(leg.arrival, { precise: true })]],
+      [t('about.departure'), clock(before.departure)],
+      [t('about.arrival'), clock(leg.arrival)]],
   };
 }
 

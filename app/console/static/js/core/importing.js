@@ -119,7 +119,8 @@ export function assumedOf({ request }, name) {
   return {
     depot: Array.isArray(depot) ? placing(request, [depot[0], depot[1]]) : null,
     vehicles: String(request.fleet.reduce((sum, { count }) => sum + count, 0)),
-    capacity: alike(({ capacity }) => capacity.map((amount) => number(amount)).join(' ')),
+    capacity: alike(({ capacity }) => capacity.map((amount, at) =>
+      `${number(amount)} ${request.load_dimensions?.[at]?.unit ?? ''}`.trim()).join(' / ')),
     shift: alike(({ shift }) => timeWindow(shift)),
     max_trips: plain(alike((kind) => kind.max_trips)),
     per_hour: plain(alike(({ costs }) => costs?.per_hour)),

@@ -2,12 +2,9 @@
 
 import { language, t } from '../texts.js';
 
-/** Units by what a description says, the first that fits. */
-/** @type {[RegExp, string | (() => string)][]} */
+/** Units by what a description says, the first that fits. @type {[RegExp, string][]} */
 const UNITS = [
   [/\bkm\/h\b/i, 'km/h'],
-  [/per kilometre/i, () => t('form.perKm')],
-  [/cost per hour/i, () => t('form.perHour')],
   [/\bdegrees\b/i, '\u00b0'],
   [/\bmetres per\b/i, 'm'],
   [/\bin metres\b/i, 'm'],
@@ -59,8 +56,9 @@ export function kindOf(schema) {
 export function unitOf(schema) {
   const text = schema.description ?? '';
   if (!['number', 'integer'].includes(schema.type)) return '';
-  const [, unit = ''] = UNITS.find(([pattern]) => pattern.test(text)) ?? [];
-  return typeof unit === 'function' ? unit() : unit;
+  // What costs a kilometre or an hour is labelled so.
+  if (/per kilometre|cost per hour/i.test(text)) return '';
+  return UNITS.find(([pattern]) => pattern.test(text))?.[1] ?? '';
 }
 
 /** Return texts, or other values, by name as lines such as `phone: 089 1234`. */

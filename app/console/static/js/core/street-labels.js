@@ -9,7 +9,7 @@ export const GAP = 8; // pixels around a name
 const BEND = 2.5; // pixels that a street may leave the straight line of its name by
 const TRIES = [0, -0.5, 0.5, -1, 1, -1.5, 1.5]; // widths of a name that it may be moved along
 const SIDES = [0, -1, 1]; // of a street
-const BESIDE = 12; // pixels from a street to the middle of a name beside it
+const BESIDE = 15; // pixels from a street to the middle of a name beside it
 const CLEAR = 9; // pixels from the middle of a name to what it keeps clear of
 const CELL = 64; // pixels
 

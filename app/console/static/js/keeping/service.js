@@ -1,8 +1,6 @@
 /** Plans kept by name on the service. */
 
-import {
-  deleteKeptPlan, getKeptPlan, getKeptPlans, putKeptPlan, renameKeptPlan,
-} from '../api.js';
+import { deleteKeptPlan, getKeptPlan, getKeptPlans, putKeptPlan, renameKeptPlan } from '../api.js';
 
 export const list = getKeptPlans;
 export const read = getKeptPlan;

@@ -2,7 +2,6 @@
 
 const STEP = 8; // pixels from point to point of a line
 const AROUND = [-12, 0, 12]; // pixels around a label
-const BELOW = 14; // pixels from a stop to its number
 
 /** Return points of the map where a view draws lines, marks and labels. */
 export function pointsOn({ map, entries, labels, numbers }) {
@@ -11,10 +10,10 @@ export function pointsOn({ map, entries, labels, numbers }) {
     if (layer.getLatLng) points.push(pointAt(map, layer));
     else if (base.opacity) addLine(layer, points);
   }
-  for (const [group, below] of [[labels, 0], [numbers, BELOW]]) {
+  for (const group of [labels, numbers]) {
     group.eachLayer((label) => {
       const [x, y] = pointAt(map, label);
-      points.push(...AROUND.map((aside) => [x + aside, y + below]));
+      points.push(...AROUND.map((aside) => [x + aside, y]));
     });
   }
   return points;

@@ -130,16 +130,14 @@ export function customerMarks(request, index, parts, dark) {
   const visits = visitsOf(request);
   const crowded = visits.length > 600;
   const radius = crowded ? 3.2 : 5;
-  return visits
-    .filter(placeOf)
-    .map((customer) => {
-      const key = `c:${customer.id}`;
-      const [Kind, base] = customerStyle(index, customer, parts, dark, radius);
-      const halt = index?.halts.get(key);
-      // Who is served at another place than its own is shown there.
-      const place = (halt?.alternative && halt.location) || customer.location;
-      return { key, base, layer: new Kind(latLng(place), { ...base, key }) };
-    });
+  return visits.filter(placeOf).map((customer) => {
+    const key = `c:${customer.id}`;
+    const [Kind, base] = customerStyle(index, customer, parts, dark, radius);
+    const halt = index?.halts.get(key);
+    // Who is served at another place than its own is shown there.
+    const place = (halt?.alternative && halt.location) || customer.location;
+    return { key, base, layer: new Kind(latLng(place), { ...base, key }) };
+  });
 }
 
 function customerStyle(index, customer, parts, dark, radius) {
@@ -260,20 +258,6 @@ export function tripLabels(index, dark) {
           icon, interactive: false, keyboard: false, zIndexOffset: 200,
         })];
     }));
-}
-
-/** Return the numbers of a trip's stops. */
-export function stopNumbers(trip) {
-  return trip.stops.flatMap((halt, number) =>
-    isVisit(halt) && halt.location
-      ? [
-          L.marker(latLng(halt.location), {
-            interactive: false,
-            keyboard: false,
-            zIndexOffset: 300,
-            icon: labelIcon('stop-mark', String(number)),
-          })]
-      : []);
 }
 
 /** Return marks beside places: `{location, className, text}`. */

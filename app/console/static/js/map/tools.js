@@ -3,14 +3,7 @@
 import { edit, select } from '../actions.js';
 import { placeSelected } from '../addressing.js';
 import {
-  addCustomer,
-  addDepot,
-  addSite,
-  customersWithin,
-  eraseAreasAt,
-  giveWindows,
-  removeSite,
-  rounded,
+  addCustomer, addDepot, addSite, customersWithin, eraseAreasAt, giveWindows, removeSite, rounded,
   setArea,
 } from '../core/changes.js';
 import { placeText } from '../core/orders.js';

@@ -8,24 +8,13 @@ import { visitsOf } from '../core/visits.js';
 import { drivesStraight } from '../core/warned.js';
 import { leaflet } from '../libraries.js';
 import {
-  bufferShapes,
-  customerMarks,
-  labelIcon,
-  latLng,
-  legAt,
-  legLine,
-  noFlyShapes,
-  notedIn,
-  notes,
-  zoneShapes,
-  placeMarks,
-  planLines,
-  stopNumbers,
-  tripLabels,
+  bufferShapes, customerMarks, labelIcon, latLng, legAt, legLine, noFlyShapes, notedIn, notes,
+  zoneShapes, placeMarks, planLines, tripLabels,
 } from './layers.js';
 import { fitWhole, isSeen } from './fitting.js';
 import { groundsOf } from './grounds.js';
 import { pointsOn } from './kept-clear.js';
+import { stopNumbers } from './numbers.js';
 import { ScaleBar } from './scale.js';
 import { StopNames } from './street-names.js';
 import { t } from '../texts.js';
@@ -89,6 +78,11 @@ export class MapView {
     this.isMoved = true; // from where everything is seen
     this.map.on('movestart', () => {
       this.isMoved ||= !this.isFitting;
+    });
+    this.map.on('moveend', () => {
+      const { numbered } = this;
+      this.numbered = undefined;
+      if (this.index) this.#number(numbered ?? null);
     });
     this.resizes = new ResizeObserver(() => {
       if (this.isMoved) this.map.invalidateSize({ animate: false });
@@ -154,7 +148,7 @@ export class MapView {
   /** Show a problem and, if there is one, its plan; `parts` of it are settled. */
   draw(request, index, parts, dark, doubts = {}, news = null) {
     const isNew = index !== this.index;
-    Object.assign(this, { request, index, dark });
+    Object.assign(this, { request, index, parts, dark });
     this.credit.setPrefix(index && drivesStraight(index) ? t('map.straight') : false);
     [this.areas, this.shapes, this.labels, this.numbers].forEach((group) => group.clearLayers());
     this.noFly = noFlyShapes(request, dark);
@@ -175,6 +169,7 @@ export class MapView {
     notes(notedIn(request, index, doubts, news)).forEach((mark) => this.labels.addLayer(mark));
     if (index) tripLabels(index, dark).forEach((mark) => this.labels.addLayer(mark));
     this.marked = '';
+    this.numbered = undefined;
     this.map.fire('drawn');
     if (isNew && !this.isMoved && !isSeen(this.map, this.#extentOf(request))) this.fit();
   }
@@ -217,7 +212,8 @@ export class MapView {
   /** Mark what is selected and what the pointer is on; the rest steps back, unless it is much. */
   mark(selection, hovered) {
     const focus = hovered ?? selection;
-    const outer = focus && this.index ? tripOrVehicle(this.index, focus) : null;
+    const [outer, own] = [focus, selection].map((key) =>
+      key && this.index ? tripOrVehicle(this.index, key) : null);
     const state = `${outer}|${focus}|${selection}`;
     if (state === this.marked) return;
     this.marked = state;
@@ -231,13 +227,17 @@ export class MapView {
       restyle(entry, { isFocus, isDim: isFew && !inside, isBold: !isFew && outer && inside });
     }
     this.touched = isFew ? [] : marked;
-    this.#number(selection);
+    this.#number(own);
+    this.numbers.eachLayer((mark) =>
+      mark.setOpacity(!outer || contains(this.index, outer, mark.options.key) ? 1 : DIM));
   }
 
-  #number(selection) {
+  /** Write numbers of stops, all of whose key is given, else those for which there is room. */
+  #number(outer) {
+    if (this.numbered === outer) return;
+    this.numbered = outer;
     this.numbers.clearLayers();
-    const { trip } = partsOf(this.index, selection);
-    if (trip) stopNumbers(trip).forEach((mark) => this.numbers.addLayer(mark));
+    stopNumbers(this, outer).forEach((mark) => this.numbers.addLayer(mark));
     this.map.fire('drawn');
   }
 
@@ -329,14 +329,9 @@ export class MapView {
       const icon = labelIcon(`${kind}-mover`, kind === 'truck' ? vehicle.label : '', {
         background: colour,
       });
-      this.trucks.set(
-        key,
-        L.marker(latLng(what.location), {
-          icon,
-          interactive: false,
-          keyboard: false,
-          zIndexOffset: kind === 'truck' ? 900 : 1000,
-        }).addTo(this.movers));
+      this.trucks.set(key, L.marker(latLng(what.location), {
+        icon, interactive: false, keyboard: false, zIndexOffset: kind === 'truck' ? 900 : 1000,
+      }).addTo(this.movers));
     }
     this.trucks.get(key).setLatLng(latLng(what.location));
   }
@@ -370,10 +365,8 @@ function tripOrVehicle(index, key) {
 /** Let two maps show the same place; returns a function that ends it. */
 export function synchronise(first, second) {
   const follow = (leader, follower) => () => {
-    if (
-      follower.getZoom() !== leader.getZoom() ||
-      !follower.getCenter().equals(leader.getCenter())
-    ) {
+    if (follower.getZoom() !== leader.getZoom()
+      || !follower.getCenter().equals(leader.getCenter())) {
       follower.setView(leader.getCenter(), leader.getZoom(), { animate: false });
     }
   };

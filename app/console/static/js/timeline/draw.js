@@ -32,7 +32,7 @@ export function heightOf(rows) {
 
 /** Return the width of the labels for a canvas of a width. */
 export function gutterOf(width) {
-  return width < 600 ? 92 : 132;
+  return width < 480 ? 92 : 132;
 }
 
 /** Return functions between instants and pixels. */
@@ -192,10 +192,7 @@ function drawWindow(context, row, mark, scale, { selection, hover, colours, rang
   context.beginPath();
   context.moveTo(from, y);
   context.lineTo(until, y);
-  for (const [x, isOpen] of [
-    [from, mark.earliest <= 0],
-    [until, mark.latest === null],
-  ]) {
+  for (const [x, isOpen] of [[from, mark.earliest <= 0], [until, mark.latest === null]]) {
     if (!isOpen) {
       context.moveTo(x, y + 1);
       context.lineTo(x, y - (strong ? row.height - 5 : 4));

@@ -19,6 +19,7 @@ import { t } from '../texts.js';
 
 const NEWS = { new: 'good', moved: 'accent', later: 'warn', late: 'bad', doubt: 'warn' };
 const CLOSEST = 300; // seconds
+const [LEAST, MOST, AROUND] = [96, 560, 72]; // pixels of the pane, and of it around its rows
 const LEAST_DRAG = 4; // pixels, below which it is a click
 const REACH = 10; // pixels around the bar of who is selected, since it may be thin
 
@@ -35,9 +36,13 @@ export function TimelinePane() {
   const request = useStore((state) => state.request);
   const parts = settledOf(entry, request);
   const folded = useStore((state) => state.frame.timelineFolded);
+  const most = Math.max(heightOf(rows) + AROUND, LEAST);
+  // No higher than its rows: what is above ends there, too.
+  useLayoutEffect(() =>
+    document.documentElement.style.setProperty('--timeline-rows', `${most}px`), [most]);
   return html`<section class="timeline" aria-label=${t('timeline.title')}>
-    ${!folded && html`<${Edge} name="timeline" range=${[96, 560]} label=${t('timeline.edge')}
-      upward />`}
+    ${!folded && html`<${Edge} name="timeline" range=${[LEAST, Math.min(most, MOST)]}
+      label=${t('timeline.edge')} upward />`}
     <div class="timeline-bar">
       <${Player} index=${index} />
       <span class="zoom">

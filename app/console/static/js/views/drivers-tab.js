@@ -7,14 +7,7 @@ import {
 import { clock, duration } from '../core/format.js';
 import { nameOfVehicle } from '../core/vehicle-labels.js';
 import {
-  endDay,
-  followDispatch,
-  goOnFromDrivers,
-  leaveDispatch,
-  lookForDispatches,
-  renew,
-  revoke,
-  sendOut,
+  endDay, followDispatch, goOnFromDrivers, leaveDispatch, lookForDispatches, renew, revoke, sendOut,
 } from '../dispatching.js';
 import { html, useState } from '../libraries.js';
 import { beginDay, openDay, tell } from '../living.js';

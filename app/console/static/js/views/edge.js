@@ -14,7 +14,7 @@ const STEP = 16; // pixels a key
  * @param upward whether it grows upwards; else it grows to the right
  */
 export function Edge({ name, range: [least, most], label, upward = false }) {
-  const size = useStore((state) => state.frame[name]);
+  const size = useStore((state) => Math.min(state.frame[name], most));
   const set = (value) =>
     layOut({ [name]: Math.round(Math.min(Math.max(value, least), most)) });
   const placeOf = (event) => (upward ? -event.clientY : event.clientX);

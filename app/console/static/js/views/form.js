@@ -127,7 +127,8 @@ function PlainField({
       nullable=${nullable} required=${required} choices=${choices[name]} onProblem=${setProblem}
       describedBy=${`${id}-help${isWrong ? ` ${id}-error` : ''}`}
         invalid=${isWrong} />
-    <span class="unit">${TIMES[kind] ? '' : unitOf(schema)}</span>
+    <span class="unit">${
+      TIMES[kind] || labelOf(name).endsWith(unitOf(schema)) ? '' : unitOf(schema)}</span>
     ${help}
     ${isWrong &&
       html`<div class="error" id=${`${id}-error`}>${

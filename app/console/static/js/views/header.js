@@ -1,7 +1,7 @@
 /** The header: what problem is open, what its plan comes to, and planning. */
 
 import { isWaiting, openRequest, openTab, shownPlan } from '../actions.js';
-import { clock, duration, km, money } from '../core/format.js';
+import { clock, duration, km, money, number } from '../core/format.js';
 import { fleetSize } from '../core/naming.js';
 import { penaltyOf, trueCost } from '../core/terms.js';
 import { isToBeSent, sendChange } from '../dispatching.js';
@@ -166,9 +166,7 @@ function Totals({ entry }) {
       { title: penalty > 0 ? t('header.penaltyHelp', { sum: money(penalty) }) : null,
         'aria-label': t('header.cost', { sum: money(trueCost(entry)) }) })}
     ${chip(out > 0 ? 'unassigned' : 'customers', html`<span class="served">${t('header.served', {
-      served: String(summary.served),
-      customers: String(summary.customers),
-    })}</span>`)}
+      served: number(summary.served), customers: number(summary.customers) })}</span>`)}
     ${out > 0 && chip('unassigned', html`<span class="out">${
       t('header.out', { count: out })}</span>`)}
     ${chip('routes', t('header.used', {

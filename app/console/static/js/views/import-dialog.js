@@ -35,7 +35,8 @@ function Found({ importing }) {
   const { reply, busy, failure, isRemembered } = importing;
   const rows = t('import.rows', { count: reply.rows });
   return html`<div class="import" aria-busy=${busy}>
-    <p role="status">${t('import.customers', { count: reply.customers, rows })}
+    <p role="status">${(reply.customers > 0 || !reply.shipments) &&
+        t('import.customers', { count: reply.customers, rows })}
       ${reply.shipments > 0 && ` ${t('import.shipments', { count: reply.shipments })}`}
       ${isRemembered && ` ${t('import.remembered')}`}${busy && ` ${t('import.readingAnew')}`}</p>
     ${failure && html`<p class="error" role="alert">${failure.message}

@@ -7,7 +7,7 @@ import { placeOf, withFound } from '../core/places.js';
 import { leaveUnplaced, place, placeAt } from '../importing.js';
 import { html, useEffect, useLayoutEffect, useMemo, useRef, useState } from '../libraries.js';
 import { MapView } from '../map/view.js';
-import { useStore } from '../store.js';
+import { store, useStore } from '../store.js';
 import { t } from '../texts.js';
 
 const NOTHING = { coordinate_system: 'geographic', depots: [], customers: [], fleet: [] };
@@ -78,13 +78,12 @@ function Ground({ request, places, isPlacing }) {
   const config = useStore((state) => state.config);
   const shown = useMemo(() => withFound(request, byAddress(places)).request, [request, places]);
   useLayoutEffect(() => {
+    const geographic = request.coordinate_system === 'geographic';
     const made = new MapView(element.current, {
-      geographic: request.coordinate_system === 'geographic',
-      config,
-      planarUnit: request.planar_unit ?? 1,
-      onHover: () => {},
-      onSelect: () => {},
+      geographic, config, planarUnit: request.planar_unit ?? 1,
+      onHover: () => {}, onSelect: () => {},
     });
+    made.setGround(store.get().frame.tiles);
     made.onGround = placeAt;
     made.onSelect = (_, point) => placeAt(point);
     setView(made);

@@ -9,7 +9,7 @@ import { t } from '../texts.js';
 /** The name, which can be changed, and the button that saves. */
 export function ProblemName() {
   const name = useStore((state) => state.name);
-  const unsaved = useStore(isUnsaved);
+  const unsaved = useStore((state) => !state.live && isUnsaved(state));
   const isKept = useStore((state) => state.home !== null);
   const mark = unsaved ? '\u2022 ' : '';
   useEffect(() => {

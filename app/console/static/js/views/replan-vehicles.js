@@ -4,13 +4,7 @@ import { edit, indexOf } from '../actions.js';
 import { setIn } from '../core/paths.js';
 import { nameOfVehicle } from '../core/vehicle-labels.js';
 import {
-  basisRoutes,
-  dronesOnTheWay,
-  idleVehicles,
-  isDrone,
-  setBroken,
-  setPinned,
-  whereabouts,
+  basisRoutes, dronesOnTheWay, idleVehicles, isDrone, setBroken, setPinned, whereabouts,
 } from '../core/replanning.js';
 import { html } from '../libraries.js';
 import { takeTool } from '../map/draw-bar.js';

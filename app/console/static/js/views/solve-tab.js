@@ -164,7 +164,7 @@ function Solver() {
     took: duration(solver.elapsed.search),
     repeatable: solver.deterministic ? t('solve.isRepeatable') : t('solve.isNot'),
   };
-  return html`<section class="section"><h3>${t('solve.plan')}</h3><${Facts}
+  return html`<section class="section developers"><h3>${t('solve.plan')}</h3><${Facts}
     facts=${Object.entries(facts).map(([name, fact]) => [t(`solve.fact.${name}`), fact])}
     /></section>`;
 }
