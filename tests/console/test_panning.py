@@ -92,7 +92,7 @@ def crowd(browser: Browser, service: str) -> Iterator[Page]:
         idle(page)
         problem = large_problem(COUNT) | {"options": {"time_limit": 0}}
         open_file(page, "large.json", json.dumps(problem))
-        planned(page, f"{COUNT} of {COUNT} served")
+        planned(page, f"{COUNT:,} of {COUNT:,} served")
         yield page
 
 

@@ -142,7 +142,7 @@ def test_customers_in_an_area_get_a_window(page: Page) -> None:
     tools.get_by_role("button", name="Windows in an area").click()
     fill(tools, "Opens", "0:10")
     expect(page.locator(".marker-icon.cursor-marker")).to_be_attached()
-    for right, down in [(-430, -290), (440, 290)]:
+    for right, down in [(-430, -345), (440, 345)]:
         page.mouse.move(x + right, y + down)
         page.mouse.click(x + right, y + down)
     windows = [customer["time_window"] for customer in state(page, "state.request.customers")]

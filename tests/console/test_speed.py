@@ -61,7 +61,7 @@ def test_two_thousand_customers_are_panned_without_stutter(page: Page) -> None:
     idle(page)
     few = frames_while_moving(page, is_pressed=True)
     open_file(page, "large.json", json.dumps(large_problem()))
-    planned(page, f"{COUNT} of {COUNT} served")
+    planned(page, f"{COUNT:,} of {COUNT:,} served")
     expect(stop_button(page)).to_have_count(0)
     assert state(page, "state.request.customers.length") == COUNT
     frames = frames_while_moving(page, is_pressed=True)
