@@ -116,10 +116,7 @@ export function haltFacts(halt) {
   if (halt.waiting > 0) {
     facts.push([
       t('about.waits'),
-      t('about.waitsUntil', {
-        time: duration(halt.waiting),
-        until: clock(halt.serviceStart),
-      })]);
+      t('about.waitsUntil', { time: duration(halt.waiting), until: clock(halt.serviceStart) })]);
   }
   facts.push([t('about.departure'), clock(halt.departure)]);
   if (halt.lateness > 0) facts.push([t('about.lateBy'), duration(halt.lateness)]);

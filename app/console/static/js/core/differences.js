@@ -84,9 +84,7 @@ export function movedCustomers(former, entry, pairs = matchVehicles(former, entr
     (then.vehicle ? names.get(then.vehicle) === after.vehicle : !after.vehicle);
   return [...new Set([...before.keys(), ...now.keys()])]
     .filter((id) => !stayed(before.get(id), now.get(id)))
-    .map((id) => ({
-      id, before: before.get(id)?.shown ?? null, now: now.get(id)?.shown ?? null,
-    }));
+    .map((id) => ({ id, before: before.get(id)?.shown ?? null, now: now.get(id)?.shown ?? null }));
 }
 
 /** Return who serves each customer: `{vehicle, drone, shown}`, no vehicle for nobody. */

@@ -78,9 +78,7 @@ export function pack(state, identify) {
             number: run.number, name: run.name, former: run.former, job: run.job ?? null,
             request: keepRequest(run.request),
           },
-    scenario: scenario && {
-      ...scenario, body: keep(scenario.body), result: keep(scenario.result),
-    },
+    scenario: scenario && { ...scenario, body: keep(scenario.body), result: keep(scenario.result) },
     isTrivial: !state.home && !isUnsaved(state),
     customers: state.request?.customers?.length ?? 0,
     cost: costOf(state.plans.find(({ number }) => number === state.shown)),

@@ -186,10 +186,7 @@ ${points.join('\n')}
 function routePoint(halt, position) {
   const [lon, lat] = halt.location;
   const told = Object.entries(halt.source?.info ?? {}).map(([name, text]) => `, ${name}: ${text}`);
-  const times = t('take.times', {
-    arrival: clock(halt.arrival),
-    departure: clock(halt.departure),
-  });
+  const times = t('take.times', { arrival: clock(halt.arrival), departure: clock(halt.departure) });
   return (
     `    <rtept lat="${lat}" lon="${lon}"><name>${escaped(`${position} ${halt.id}`)}</name>` +
     `<desc>${escaped(times + told.join(''))}</desc></rtept>`

@@ -139,9 +139,7 @@ function sortieBars(vehicle, sortie, launching) {
   const drones = dronesOfSortie(vehicle.type, sortie.reply) ?? {};
   const landing = Math.max(recovered - (drones.recovery_duration ?? 0), launch);
   const bars = [
-    {
-      kind: 'handle', from: launch - launching, until: launch, key: sortie.key,
-    }];
+    { kind: 'handle', from: launch - launching, until: launch, key: sortie.key }];
   let since = launch;
   for (const halt of sortie.visits) {
     bars.push(

@@ -46,10 +46,7 @@ function Sheet({ vehicle, parts, isGeographic, link }) {
     })}</p>
     ${vehicle.trips.map(
       (trip) => html`<section key=${trip.key}>
-      <h2>${t('sheet.trip', {
-        number: trip.index + 1,
-        load: amounts(trip.reply.load),
-      })}</h2>
+      <h2>${t('sheet.trip', { number: trip.index + 1, load: amounts(trip.reply.load) })}</h2>
       <table><thead><tr>${COLUMNS.map(
         (name) => html`<th key=${name}>${t(`sheet.${name}`)}</th>`,
       )}</tr></thead>

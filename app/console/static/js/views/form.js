@@ -92,11 +92,7 @@ const INSTANT = {
 const TIMES = {
   instant: INSTANT,
   opening: INSTANT,
-  duration: {
-    show: durationText,
-    read: readDuration,
-    example: () => t('form.exampleDuration'),
-  },
+  duration: { show: durationText, read: readDuration, example: () => t('form.exampleDuration') },
 };
 
 /** What a field is for; its place in the API and what that says of it are behind a click. */

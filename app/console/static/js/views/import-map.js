@@ -100,8 +100,7 @@ function Ground({ request, places, isPlacing }) {
 /** Return where customers are, and both ends of shipments. */
 function placesIn({ customers, shipments = [] }) {
   const ends = shipments.flatMap(({ pickup, pickups, delivery }) => [
-    ...(pickups ?? [pickup]),
-    delivery]);
+    ...(pickups ?? [pickup]), delivery]);
   return [...customers, ...ends].map(placeOf).filter(Boolean);
 }
 

@@ -31,10 +31,8 @@ export function Reading({ importing: { reply, mapping } }) {
       ]}
       onChoose=${(first) => choose({ day_first: first === '' ? null : first === 'true' })} />
     <${Choice} label=${t('import.samePlace')} value=${mapping.same_place ?? 'together'}
-      options=${[
-        ['together', t('import.together')],
-        ['apart', t('import.apart')],
-      ]} onChoose=${(same) => choose({ same_place: same })} />
+      options=${[['together', t('import.together')], ['apart', t('import.apart')]]}
+      onChoose=${(same) => choose({ same_place: same })} />
     </div></details>`;
 }
 

@@ -105,10 +105,7 @@ function draw(Chart, element, onChart) {
   const options = {
     ...sizeOf(),
     cursor: { drag: { setScale: false } },
-    scales: {
-      x: { time: false },
-      y: { range: (_, low, high) => roomy(low, high) },
-    },
+    scales: { x: { time: false }, y: { range: (_, low, high) => roomy(low, high) } },
     axes: [
       { ...axis, label: seconds, labelSize: 18, labelFont: '11px Inter, system-ui', size: 28 },
       { ...axis, size: 56 }],
