@@ -101,7 +101,7 @@ def _parts(body: bytes, first: tuple[str, ...]) -> tuple[Key | None, bytes]:
     try:
         parts = msgspec.json.decode(body, type=dict[str, msgspec.Raw])
         key = bytes(parts.pop(PROBLEM)), bytes(parts.pop(PLAN)), first
-    except (msgspec.DecodeError, KeyError):
+    except (msgspec.DecodeError, RecursionError, KeyError):
         return None, b""
     return key, b"{%b}" % b",".join([
         b"%b:%b" % (to_json(name), bytes(part)) for name, part in parts.items()])

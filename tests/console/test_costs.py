@@ -46,7 +46,7 @@ def test_cost_is_the_same_everywhere_and_the_penalty_apart(page: Page) -> None:
     costs = costs_in(page)
     assert costs == [pytest.approx(cost["total"] - cost["unassigned"], abs=0.01)] * 4
     # Nobody pays the penalty: the header says who is left out, and what is counted on asking.
-    expect(page.locator(".result-line")).to_contain_text("1 unassigned")
+    expect(page.locator(".result-line")).to_contain_text("1 left out")
     expect(page.locator("header.head")).not_to_contain_text("penalty")
     open_tab(page, "costs")
     expect(page.locator("#penalty")).to_be_visible()

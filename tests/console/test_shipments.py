@@ -85,7 +85,7 @@ def test_a_sheet_of_pickups_and_deliveries_is_planned(console: Page) -> None:
         "Order,Pickup lat,Pickup lon,Delivery lat,Delivery lon,Qty\n"
         "A1,48.10,11.50,48.2,11.6,3\nA2,48.11,11.51,48.3,11.6,4\nA3,,,48.3,11.7,4\n"))
     shown = dialog(console)
-    expect(shown.get_by_role("status").first).to_contain_text("And 2 shipments.")
+    expect(shown.get_by_role("status").first).to_contain_text("2 shipments.")
     meaning = shown.get_by_label("Meaning of Pickup lat")
     expect(meaning.locator("option:checked")).to_have_text("Pickup: Latitude")
     use(console)
