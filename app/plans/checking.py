@@ -74,6 +74,11 @@ def read_check(body: bytes, bounds: Bounds) -> CheckRequest:
     return read_about_plan(body, bounds, CheckRequest)
 
 
+def unplanned(bounds: Bounds) -> Bounds:
+    """Return bounds for what isn't planned: its options aren't bounded."""
+    return replace(bounds, num_samples=MAX_NUM_SAMPLES, time_limit=MAX_TIME_LIMIT)
+
+
 def read_about_plan(body: bytes, bounds: Bounds, kind: type[Kind]) -> Kind:
     """Return the request that `body` holds; nothing is planned, so its options aren't bounded.
 
@@ -86,7 +91,7 @@ def read_about_plan(body: bytes, bounds: Bounds, kind: type[Kind]) -> Kind:
     InvalidRequestError
         With every error found, if it is not a valid request.
     """
-    bounds = replace(bounds, num_samples=MAX_NUM_SAMPLES, time_limit=MAX_TIME_LIMIT)
+    bounds = unplanned(bounds)
     require_readable(body, kind)
     try:
         request = read_body(kind, body)

@@ -1,19 +1,17 @@
 """Plans of which quotes were asked last: what doesn't hang on the order asked is made once."""
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import replace
 from typing import NamedTuple
 
 import msgspec
 from pydantic import ValidationError
 from pydantic_core import to_json
 
-from app.plans.checking import PLAN, PROBLEM, read_about_plan
+from app.plans.checking import PLAN, PROBLEM, read_about_plan, unplanned
 from app.plans.task import Task
 from app.requests.bounds import Bounds
 from app.requests.reading import request_errors
 from app.schemas.day import DayOfBody
-from app.schemas.limits import MAX_NUM_SAMPLES, MAX_TIME_LIMIT
 from app.schemas.plan import PlanInput
 from app.schemas.quote import OrderAsked, QuoteRequest
 from app.schemas.times import read_body
@@ -115,8 +113,7 @@ def _of_known(known: QuotedPlan, rest: bytes, body: bytes, bounds: Bounds) -> Qu
         return None
     request = known.request.model_copy(update={
         name: getattr(asked, name) for name in OrderAsked.model_fields})
-    bounds = replace(bounds, num_samples=MAX_NUM_SAMPLES, time_limit=MAX_TIME_LIMIT)
-    return None if request_errors(request.whole_problem, None, bounds) else request
+    return None if request_errors(request.whole_problem, None, unplanned(bounds)) else request
 
 
 def _named(plan: PlanInput | UntimedPlanInput) -> Iterator[str]:

@@ -17,8 +17,7 @@ from app.plans.routes import Plans
 from app.records.days.errors import DayMovedError, SlotTakenError
 from app.records.days.events import DayEventsRequest
 from app.records.days.fold import KINDS
-from app.records.days.memory import DayMemory
-from app.records.days.runner import DayRunner
+from app.records.days.runner import DayRunner, memory_of
 from app.records.days.schemas import (
     AcceptRequest, CustomerLinksReply, DayEventsReply, DayPlanReply, DayReply, DayRequest,
     LoggedReply,
@@ -209,10 +208,9 @@ async def _events(database: PreparedDatabase, row: DayRow,
 
 def _service(request: Request, engine: Engine) -> DayService:
     settings = request.app.state.settings
-    runner: DayRunner | None = request.app.state.days
     return DayService(DayStore(engine), DispatchStore(engine), settings, Bounds.of_plans(settings),
                       request.app.state.plans.policies,
-                      DayMemory() if runner is None else runner.memory)
+                      memory_of(request.app.state.days))
 
 
 def _hurry(request: Request) -> None:

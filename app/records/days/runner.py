@@ -271,3 +271,8 @@ class DayRunner:
 def now_of(told: ToldDay) -> int:
     """Return what time it is on a day, in milliseconds since 1970."""
     return now_ms() if told.clock is None else told.clock
+
+
+def memory_of(runner: DayRunner | None) -> DayMemory:
+    """Return how days stood last where they are planned; nothing where they aren't."""
+    return DayMemory() if runner is None else runner.memory

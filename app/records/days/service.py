@@ -203,7 +203,7 @@ class DayService:
         """
         row = self.find(name, owner)
         return {"number": row.plan_number, "planned": row.planned,
-                "plan": plan_of(self._store, row, times)}
+                "plan": plan_of(self._store, self._memory, row, times)}
 
     def links(self, name: str, owner: str, base: str) -> CustomerLinksReply:
         """Return a link for each order, `base` being the service's address; raises as `find`."""

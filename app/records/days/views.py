@@ -32,7 +32,8 @@ def problem_of(store: DayStore, memory: DayMemory, row: DayRow) -> dict[str, Any
                 each for each in stay.values() if "delivery" in each)]}
 
 
-def plan_of(store: DayStore, row: DayRow, times: Times | None = None) -> dict[str, Any]:
+def plan_of(store: DayStore, memory: DayMemory, row: DayRow,
+            times: Times | None = None) -> dict[str, Any]:
     """Return a day's plan, times as its problem asks for, or as stated.
 
     Raises
@@ -44,7 +45,7 @@ def plan_of(store: DayStore, row: DayRow, times: Times | None = None) -> dict[st
     if content is None:
         raise NoDayPlanError
     plan = dict(from_json(content))
-    begun = store.begun(row.id)
+    begun = memory.begun(store, row.id)
     stated = begun.problem
     if times is not None:
         stated = {**stated, "options": {**stated.get("options", {}), "times": times}}

@@ -1,5 +1,6 @@
 """Kept plans that are a day's: who reads one gets the day's problem and plan as they are then."""
 
+from contextlib import suppress
 from dataclasses import replace
 from typing import Any
 
@@ -28,8 +29,9 @@ def content_of(store: KeptStore, memory: DayMemory, owner: str, content: Content
     day = days.find(owner, content.day)
     if day is None:
         raise UnknownDayError
-    problem, plan = problem_of(days, memory, day), _plan(days, day)
-    return replace(content, body=to_json({"request": problem, "plan": plan}),
+    now = _standing(days, memory, day)
+    problem, plan = now["request"], now["plan"]
+    return replace(content, body=to_json(now),
                    customers=len(problem["customers"]) + len(problem["shipments"]),
                    cost=None if plan is None else plan["cost"]["total"], day=day.id)
 
@@ -42,11 +44,12 @@ def read(store: KeptStore, memory: DayMemory, kept: tuple[KeptRow, bytes]) -> tu
     day = None if row.day is None else days.find(row.owner, row.day)
     if day is None:
         return row, body
-    return row, to_json({"request": problem_of(days, memory, day), "plan": _plan(days, day)})
+    return row, to_json(_standing(days, memory, day))
 
 
-def _plan(days: DayStore, day: DayRow) -> dict[str, Any] | None:
-    try:
-        return plan_of(days, day)
-    except NoDayPlanError:
-        return None
+def _standing(days: DayStore, memory: DayMemory, day: DayRow) -> dict[str, Any]:
+    """Return a day's problem and plan; none is there yet: null."""
+    plan = None
+    with suppress(NoDayPlanError):
+        plan = plan_of(days, memory, day)
+    return {"request": problem_of(days, memory, day), "plan": plan}

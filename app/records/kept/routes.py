@@ -7,7 +7,7 @@ from fastapi import APIRouter, Depends, Header, Path, Query, Request, Response, 
 from fastapi.security import APIKeyHeader
 
 from app.records.days.memory import DayMemory
-from app.records.days.runner import DayRunner
+from app.records.days.runner import memory_of
 from app.records.kept import live, replies
 from app.records.kept.desk import KeptDesk
 from app.records.kept.errors import UnknownLinkError
@@ -70,8 +70,7 @@ async def get_desk(request: Request) -> KeptDesk:
 
 async def get_memory(request: Request) -> DayMemory:
     """Return how days stood last."""
-    runner: DayRunner | None = request.app.state.days
-    return DayMemory() if runner is None else runner.memory
+    return memory_of(request.app.state.days)
 
 
 Desk = Annotated[KeptDesk, Depends(get_desk)]
