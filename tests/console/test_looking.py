@@ -121,6 +121,10 @@ def test_remedies_are_applied_with_one_click(console: Page) -> None:
         console.keyboard.press("Control+z")
     assert state(console, "state.request.fleet") == UNSERVABLE["fleet"]
     assert state(console, "state.request.customers") == UNSERVABLE["customers"]
+    planned(console, "1 of 3 served")
+    expect(console.locator(".result-line .stale")).to_have_count(0)
+    console.keyboard.press("Control+y")
+    planned(console, "2 of 3 served")
 
 
 def test_flights_are_drawn_as_they_are_measured(console: Page) -> None:

@@ -49,25 +49,26 @@ export function undo() {
   });
 }
 
-/** Return the plan to look at once a day that went on goes on no more: the last that lasts. */
+/** Return the plan to look at: the last of the problem as it is, or as it was where a day ended. */
 function formerPlan(state, { request, past, ahead }) {
   const entry = shownPlan(state);
-  if (!entry?.request.replan || !ahead.includes(entry.request)) return {};
-  const lasting = new Set([...past, request]);
+  if (!entry || entry.request === request) return {};
+  const isOver = entry.request.replan && ahead.includes(entry.request);
+  const lasting = new Set(isOver ? [...past, request] : [request]);
   const former = state.plans.filter((other) => lasting.has(other.request)).pop();
-  return former ? { shown: former.number } : {};
+  if (!former) return {};
+  return { shown: former.number, ...(state.besides === former.number && { besides: null }) };
 }
 
 /** Make the edit again that was undone last. */
 export function redo() {
-  store.set(({ request, past, ahead, plans }) => {
+  store.set((state) => {
+    const { request, past, ahead } = state;
     if (!ahead.length) return {};
-    const next = ahead[ahead.length - 1];
-    const made = next.replan && plans.filter((entry) => entry.request === next).pop();
-    return {
-      request: next, past: [...past, request], ahead: ahead.slice(0, -1), errors: [],
-      ...(made && { shown: made.number }),
+    const next = {
+      request: ahead[ahead.length - 1], past: [...past, request], ahead: ahead.slice(0, -1),
     };
+    return { ...next, errors: [], ...formerPlan(state, next) };
   });
 }
 
