@@ -20,7 +20,7 @@ DURATION_UNITS = ("minutes", "seconds", "hours", "days")
 PLANAR_UNITS = ("m", "km")
 
 MASSES = {"kg": 1.0, "g": 0.001, "t": 1000.0, "lb": 0.45359237, "oz": 0.028349523125}
-VOLUMES = {"l": 1.0, "ml": 0.001, "m3": 1000.0, "cm3": 0.001, "ft3": 28.316846592}
+VOLUMES = {"l": 1.0, "ml": 0.001, "m³": 1000.0, "cm³": 0.001, "ft³": 28.316846592}
 MONEY = "money"
 FAMILIES = (MASSES, VOLUMES)
 """Units of amounts by their size in the first of each; any other unit is a word."""

@@ -125,7 +125,7 @@ def test_a_file_tells_what_stands_before_decimals() -> None:
 
 @pytest.mark.parametrize(("raw", "unit", "expected"), [
     ("12 kg", "kg", 12), ("500 g", "kg", 0.5), ("2 t", "kg", 2000), ("12,5kg", "kg", 12.5),
-    ("1 l", "m3", 0.001), (3.0, "kg", 3), ("4 pallets", None, 4), ("3 Stk.", None, 3),
+    ("1 l", "m³", 0.001), (3.0, "kg", 3), ("4 pallets", None, 4), ("3 Stk.", None, 3),
 ])
 def test_amounts_are_read_in_the_unit_of_their_column(raw: Raw, unit: str | None,
                                                       expected: float) -> None:
