@@ -129,7 +129,7 @@ def test_tabs_do_not_overwrite_each_other(page: Page, service: str) -> None:
     tab.keyboard.press("o")
     drafts = tab.get_by_role("list", name="Drafts").get_by_role("listitem")
     expect(drafts).to_have_count(2)
-    drafts.first.get_by_role("button", name="Go on with smallest").click()
+    drafts.first.get_by_role("button", name="Go on with Two customers").click()
     expect(tab.get_by_role("dialog")).to_have_count(0)
     assert first_customer(tab) == "four"
     assert first_customer(loaded_anew(tab)) == "four"

@@ -26,7 +26,7 @@ def test_day_is_begun_with_the_plan_and_opened_again(page: Page) -> None:
     expect(page.locator(".links li").first).to_be_visible()
     expect(page.locator("#total-cost")).to_be_visible()
     assert "#day=" in page.url
-    expect(page.locator("#problem-name")).to_have_text("smallest")
+    expect(page.locator("#problem-name")).to_have_text("Two customers")
     assert state(page, "state.plans.0.plan.summary.served") == served
     page.reload()
     expect(page.locator(".links li").first).to_be_visible()

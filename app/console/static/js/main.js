@@ -13,6 +13,7 @@ import { store } from './store.js';
 import { App } from './views/app.js';
 import { listenToDrops, listenToPastes } from './views/files.js';
 import { listenToKeys } from './views/shortcuts.js';
+import { t } from './texts.js';
 
 const FIRST_EXAMPLE = 'berlin';
 const IN_ADDRESS = '#example=';
@@ -53,8 +54,8 @@ async function begin() {
     store.set({
       config,
       schemas: description.components.schemas,
-      examples: Object.entries(examples).map(([name, { summary, value }]) => ({
-        name, summary, request: value, isFirst: name === FIRST_EXAMPLE,
+      examples: Object.entries(examples).map(([name, { value }]) => ({
+        name, request: value, isFirst: name === FIRST_EXAMPLE,
       })),
     });
     await open(restored, examples);
@@ -81,7 +82,7 @@ async function open(restored, examples) {
     adopt(restored);
   } else {
     const name = exampleIn(examples);
-    openRequest(examples[name].value, { name, isSafe: true });
+    openRequest(examples[name].value, { name: t(`example.${name}.name`), isSafe: true });
   }
   await untilReady();
   await followKept();

@@ -315,6 +315,22 @@ export default {
     close: 'Schließen',
     more: 'und {{count}} weitere',
   },
+  example: {
+    smallest: { name: 'Zwei Kunden', is: 'Ein Fahrzeug, alles andere wie üblich' },
+    berlin: { name: 'Berlin', is: 'Vierzig Orte, zwei Fahrzeuge mit Drohne, ein Flugverbot' },
+    drones: { name: 'Fahrzeuge mit Drohnen', is: 'Je eine Drohne, Zeitfenster und eine Schicht' },
+    hubs: { name: 'Drohnen für sich', is: 'Sie fliegen von zwei Orten, neben einem Fahrzeug' },
+    launch_sites: { name: 'Startplätze', is: 'Ein Fahrzeug hält nur für seine Drohne' },
+    table1: { name: 'Hundert Kunden', is: 'Vier Fahrzeuge mit je einer Drohne, aus dem Aufsatz' },
+    hetero_day: { name: 'Gemischte Flotte', is: 'Mehrere Fahrten in der Arbeitszeit' },
+    city_day: { name: 'Stadt', is: 'Echte Adressen, Stoßzeiten, ein Flugverbot, Wind' },
+    clocks: { name: 'Kurzer Tag', is: 'Uhrzeiten, Währung, Einheiten, ein Tag von 23 Stunden' },
+    permits: { name: 'Drohnen nach Regel', is: 'Eine veröffentlichte Regel, Wind nach Stunden' },
+    choosy: { name: 'Wählerische Kunden', is: 'Mehrere Zeitfenster, Preise fürs Auslassen' },
+    roads: { name: 'Helsinki', is: 'Mit dem Auto, auf Straßen oder Luftlinie' },
+    zones: { name: 'Flugzonen', is: 'Wie veröffentlicht: nach Höhe und Stunde, eine freigegeben' },
+    replan: { name: 'Unterwegs', is: 'Ein Auftrag ist neu, ein anderer abgesagt' },
+  },
   header: {
     language: 'Sprache',
     cost: 'Kosten {{sum}}',
@@ -2153,6 +2169,7 @@ export default {
     zones_other: 'Datei {{number}}: {{count}} Zonen ({{format}})',
     removeZones: 'Datei {{number}} entfernen',
     keepAway: '{{count}} m Abstand halten',
+    leave: 'Freigabe für {{zone}}',
     dropZones: 'Ziehen Sie eine Datei auf die Seite: ED-269, ED-318, GeoJSON oder KML.',
     moveAreas: 'Ecken werden auf der Karte verschoben: „Zeichnen“, dann „Verschieben“.',
     drawAreas: 'Keine. Sie werden auf der Karte gezeichnet: „Zeichnen“, dann „Flugverbotszone“.',
@@ -2561,6 +2578,7 @@ export default {
     groundHelp:
       'Straßen kommen von einem Server von OpenStreetMap, der dann erfährt, welchen Teil der ' +
       'Karte Sie ansehen.',
+    streets: 'Straßen',
     fromServer: 'Straßen von einem Kartenserver',
     own: 'Schlichter Grund, ohne diesen Server',
     one: 'Eine Karte',

@@ -302,6 +302,22 @@ export default {
     close: 'Close',
     more: 'and {{count}} more',
   },
+  example: {
+    smallest: { name: 'Two customers', is: 'One truck, all else by default' },
+    berlin: { name: 'Berlin', is: 'Forty places, two vans with a drone each, a no-fly area' },
+    drones: { name: 'Trucks with drones', is: 'A drone each, time windows and a shift' },
+    hubs: { name: 'Drone hubs', is: 'Drones fly from two hubs by themselves, beside a truck' },
+    launch_sites: { name: 'Launch sites', is: 'A truck stops for its drone alone, at a pier' },
+    table1: { name: 'A hundred customers', is: 'Four trucks with a drone each, from the paper' },
+    hetero_day: { name: 'Mixed fleet', is: 'Several trips within working hours' },
+    city_day: { name: 'City', is: 'True addresses, rush hours, a no-fly area, wind' },
+    clocks: { name: 'Short day', is: 'Times of day, a currency and units, on a day of 23 hours' },
+    permits: { name: 'Drones by a rule', is: 'A published rule, wind by the hour' },
+    choosy: { name: 'Choosy customers', is: 'Several windows, prices of leaving out, vehicles' },
+    roads: { name: 'Helsinki', is: 'By car, on roads or as the crow flies' },
+    zones: { name: 'Flight zones', is: 'As published: by height, by hour, one cleared' },
+    replan: { name: 'Under way', is: 'An order has come in, another was cancelled' },
+  },
   header: {
     language: 'Language',
     cost: 'Cost {{sum}}',
@@ -2105,6 +2121,7 @@ export default {
     zones_other: 'File {{number}}: {{count}} zones ({{format}})',
     removeZones: 'Remove file {{number}}',
     keepAway: 'Keep {{count}} m away',
+    leave: 'Leave to fly in {{zone}}',
     dropZones: 'Drop a file onto the page: ED-269, ED-318, GeoJSON or KML.',
     moveAreas: 'Corners are moved on the map: Draw, then Move.',
     drawAreas: 'None. They are drawn on the map: Draw, then No-fly area.',
@@ -2507,6 +2524,7 @@ export default {
     groundHelp:
       'Streets come from a server of OpenStreetMap, which then learns which part of the map you ' +
       'look at.',
+    streets: 'Streets',
     fromServer: 'Streets from a tile server',
     own: 'Plain ground, without that server',
     one: 'One map',

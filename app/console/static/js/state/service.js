@@ -4,7 +4,7 @@ import { language } from '../texts.js';
 
 export const SERVICE = {
   schemas: null, // of /openapi.json
-  examples: [], // {name, summary, request}
+  examples: [], // {name, request, isFirst}
   config: {
     policies: [], tile_url: null, tile_attribution: '', streets: [], max_job_seconds: Infinity,
   },

@@ -93,7 +93,7 @@ function Opener() {
   const examples = useStore((state) => state.examples);
   const input = useRef(null);
   const open = (example) => {
-    openRequest(example.request, { name: example.name, isSafe: true });
+    openRequest(example.request, { name: t(`example.${example.name}.name`), isSafe: true });
     return plan();
   };
   const entry = (id, onClick, children) => html`<button type="button" key=${id} id=${id}
@@ -104,7 +104,8 @@ function Opener() {
     ${entry('saved-plans', openPlans, t('header.saved'))}
     <h3>${t('header.examples')}</h3>
     ${examples.map((example) => entry(`example-${example.name}`, () => open(example),
-      html`<strong>${example.name}</strong> ${example.summary}`))}
+      html`<strong>${t(`example.${example.name}.name`)}</strong> ${
+        t(`example.${example.name}.is`)}`))}
     ${entry('example-sheet', openSheet, t('header.exampleSheet'))}
     </${Menu}>
     <input type="file" hidden ref=${input} id="file-input" aria-label=${t('header.fileInput')}
@@ -129,28 +130,18 @@ function Result() {
     ${entry && html`<${Totals} entry=${entry} />`}
     ${run.state !== 'idle' && html`<span>${
       run.waiting ?? t(`run.${waits ? 'decoding' : run.state}`)}</span>`}
-    ${['decoding', 'improving'].includes(run.state) &&
-      run.limit?.isChosen &&
-      run.limit.seconds > MOST_UNTOLD &&
-      html`<span id="chosen-limit">${t('solve.upTo', {
-        time: duration(run.limit.seconds),
-        count: run.request.customers.length,
-      })}</span>`
-    }
+    ${['decoding', 'improving'].includes(run.state) && run.limit?.isChosen
+      && run.limit.seconds > MOST_UNTOLD && html`<span id="chosen-limit">${t('solve.upTo', {
+        time: duration(run.limit.seconds), count: run.request.customers.length })}</span>`}
     ${waits && entry && html`<span class="stale">${t('run.meanwhile')}</span>`}
     ${run.state === 'improving' &&
       html`<span class="progress" role="progressbar" aria-label=${t('run.search')}
       aria-valuenow=${Math.round((run.share ?? 0) * 100)} aria-valuemin="0" aria-valuemax="100">
       <span style=${{ width: `${(run.share ?? 0) * 100}%` }}></span></span>`
     }
-    ${entry &&
-      stale &&
-      !isLive &&
-      run.state === 'idle' &&
-      html`<span class="stale"><span class="long">${t('header.changedSince')}</span><span
-        class="short">${t('header.changed')}</span>
-        ${' '}${t(`header.${goesOn ? 'planOn' : 'planAgain'}`)}</span>`
-    }
+    ${entry && stale && !isLive && run.state === 'idle' && html`<span class="stale">
+      <span class="long">${t('header.changedSince')}</span><span class="short">${
+        t('header.changed')}</span> ${t(`header.${goesOn ? 'planOn' : 'planAgain'}`)}</span>`}
   </div>`;
 }
 
