@@ -57,6 +57,11 @@ def test_zones_of_a_file_are_seen_planned_around_and_told(page: Page) -> None:
     expect(tooltip).to_contain_text("from the ground to 120 m above the ground")
     expect(tooltip).to_contain_text("Port")
     open_tab(page, "fleet")
+    leave = page.get_by_label("Leave to fly in Harbour (FIN1)")
+    leave.check()
+    assert state(page, "state.request.airspace.cleared") == ["FIN1"]
+    leave.uncheck()
+    assert state(page, "state.request.airspace.cleared") == []
     page.get_by_role("button", name="Remove file 1").click()
     assert state(page, "state.request.airspace.zones") == []
 
@@ -170,7 +175,7 @@ def test_a_countrys_file_is_dropped_planned_around_and_told_of_and_flights_are_s
     page.evaluate(DROP, ["finland.json", json.dumps(country())])
     expect(page.locator(".map-legend")).to_contain_text("Published zone")
     open_tab(page, "fleet")
-    expect(page.get_by_text(f"File 1: {NUM_ZONES} zones (ed318)")).to_be_visible()
+    expect(page.get_by_text(f"File 1: {NUM_ZONES} zones (ED-318)")).to_be_visible()
     page.get_by_role("button", name="Plan", exact=True).click()
     planned(page, "4 of 5 served")
     page.mouse.click(*place_of(page, "c:closed"))

@@ -4,8 +4,9 @@ import { edit } from '../actions.js';
 import { freeName } from '../core/changes.js';
 import { droneCount, needlessFields } from '../core/drones.js';
 import { amounts } from '../core/format.js';
-import { removeIn } from '../core/paths.js';
-import { countZones, PROPOSED_BUFFER_M, withBuffer } from '../core/zones.js';
+import { removeIn, setIn } from '../core/paths.js';
+import { titleOfZone } from '../core/zone-words.js';
+import { countZones, PROPOSED_BUFFER_M, withBuffer, zoneAreas } from '../core/zones.js';
 import { html, useEffect, useState } from '../libraries.js';
 import { useStore } from '../store.js';
 import { Field } from './form.js';
@@ -32,6 +33,8 @@ const TOPICS = {
 
 /** What is said of zones alone. */
 const OF_ZONES = ['cleared', 'conditional', 'ground'];
+const FORMATS = { ed269: 'ED-269', ed318: 'ED-318', geojson: 'GeoJSON', kml: 'KML' };
+const MOST_ZONES = 12; // that are listed
 
 /** The tab. */
 export function FleetTab() {
@@ -49,15 +52,9 @@ export function FleetTab() {
     field.select();
   }, [added]);
   const add = () => {
-    edit({
-      ...request,
-      fleet: [
-        ...request.fleet,
-        {
-          ...(request.fleet.at(-1) ?? { count: 1, capacity: [100] }),
-          id: freeName(request.fleet, 'type'),
-        }],
-    });
+    const like = request.fleet.at(-1) ?? { count: 1, capacity: [100] };
+    const type = { ...like, id: freeName(request.fleet, 'type') };
+    edit({ ...request, fleet: [...request.fleet, type] });
     setAdded({ position: request.fleet.length });
   };
   return html`<div class=${help ? 'section' : 'section no-help'}>
@@ -86,12 +83,14 @@ export function FleetTab() {
       ${(request.airspace?.zones ?? []).map(
         (stated, position) => html`<div class="buttons" key=${position}>
         ${t('fleet.zones', {
-          number: position + 1, format: stated.format, count: countZones(stated),
+          number: position + 1, format: FORMATS[stated.format], count: countZones(stated),
         })}
         <button type="button" onClick=${() =>
             edit(removeIn(request, ['airspace', 'zones', position]))}>
           ${t('fleet.removeZones', { number: position + 1 })}</button></div>`,
       )}
+      ${namedZones(request).map((zone) => html`<${Leave} key=${zone.identifier} zone=${zone}
+        request=${request} />`)}
       <p class="help">${t('fleet.dropZones')}</p>
     </fieldset>
     <${Airspace} request=${request} properties=${schemas.AirspaceInput.properties} />
@@ -104,11 +103,29 @@ export function FleetTab() {
   </div>`;
 }
 
+/** Return the zones that leave to fly is stated for one by one; none where they are many. */
+function namedZones(request) {
+  const zones = new Map(zoneAreas(request).map((zone) => [zone.identifier, zone]));
+  return zones.has(null) || zones.size > MOST_ZONES ? [] : [...zones.values()];
+}
+
+/** Whether there is leave to fly in a zone. */
+function Leave({ request, zone }) {
+  const { cleared = [] } = request.airspace;
+  const others = cleared.filter((other) => other !== zone.identifier);
+  const change = ({ target }) => edit(setIn(request, ['airspace', 'cleared'],
+    target.checked ? [...others, zone.identifier] : others));
+  return html`<label class="check"><input type="checkbox" onChange=${change}
+    checked=${others.length < cleared.length} /> ${t('fleet.leave', {
+      zone: titleOfZone(zone) })}</label>`;
+}
+
 /** What flights keep from areas and zones, and which zones block; a distance is proposed. */
 function Airspace({ request, properties }) {
   const { no_fly: areas = [], zones = [], buffer } = request.airspace ?? {};
+  const ofZones = namedZones(request).length ? OF_ZONES.slice(1) : OF_ZONES;
   return html`<fieldset class="group"><legend>${t('field.airspace')}</legend>
-    ${['buffer', ...(zones.length ? OF_ZONES : [])].map((name) => html`<${Field} key=${name}
+    ${['buffer', ...(zones.length ? ofZones : [])].map((name) => html`<${Field} key=${name}
       name=${name} schema=${properties[name]} keys=${['airspace', name]} request=${request}
       owner="AirspaceInput" onChange=${edit} />`)}
     ${areas.length + zones.length > 0 && buffer === undefined && html`<div class="buttons">
