@@ -40,6 +40,7 @@ test('lengths of time and money are shown as people write them', () => {
   assert.equal(duration(40), '40 s');
   assert.equal(duration(720), '12 min');
   assert.equal(duration(7500), '2 h 05 min');
+  assert.equal(duration(3600), '1 h');
   assert.equal(money(1234.5), '1,234.50');
   assert.equal(number(-0.5), '\u22120.5');
   assert.equal(signed(3), '+3.00');

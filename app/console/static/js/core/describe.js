@@ -110,7 +110,10 @@ export function haltFacts(halt) {
     [t('about.servedBy'), nameOfVehicle(halt.sortie ? halt.sortie.drone : halt.vehicle.name)],
     [t('about.arrival'), clock(halt.arrival)]];
   if (!isVisit(halt)) facts[0][0] = t('about.vehicle');
-  if (halt.alternative) facts.push([t('about.servedAt'), halt.alternative]);
+  if (halt.alternative) {
+    const { alternative: place, window } = halt;
+    facts.push([t('about.servedAt'), window ? `${place}, ${windowsInWords([window])}` : place]);
+  }
   if (halt.part) facts.push([t('about.part'), halt.part]);
   if (halt.setup > 0) facts.push([t('about.setsUp'), duration(halt.setup)]);
   if (halt.waiting > 0) {

@@ -116,14 +116,15 @@ export function enough(seconds) {
     .join(' ');
 }
 
-/** Return a length of time such as `2 h 05 min`, `12 min` or `40 s`. */
+/** Return a length of time such as `2 h 05 min`, `2 h`, `12 min` or `40 s`. */
 export function duration(seconds) {
   const size = Math.abs(Math.round(seconds));
   const sign = seconds < 0 && size ? MINUS : '';
   if (size < 60) return `${sign}${size} s`;
   const minutes = Math.round(size / 60);
   if (minutes < 60) return `${sign}${minutes} min`;
-  return `${sign}${Math.floor(minutes / 60)} h ${String(minutes % 60).padStart(2, '0')} min`;
+  const rest = minutes % 60 ? ` ${String(minutes % 60).padStart(2, '0')} min` : '';
+  return `${sign}${Math.floor(minutes / 60)} h${rest}`;
 }
 
 /** Return a number with thousands set apart and at most `digits` decimals. */

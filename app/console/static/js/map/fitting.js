@@ -6,7 +6,7 @@ import { latLng } from './layers.js';
 
 const L = leaflet();
 const EDGE = 36; // pixels around it
-const CLEAR = 10; // pixels around what lies on the map
+const CLEAR = 16; // pixels around what lies on the map: half a label and more
 
 /** What lies on the map and hides what is below it. */
 const OVER = '.draw-bar button, .map-tools, .leaflet-control, .map-legend, .map-title';

@@ -9,7 +9,7 @@ import { standingIn } from '../core/replanning.js';
 import { leaflet } from '../libraries.js';
 import { store } from '../store.js';
 import { latLng } from './layers.js';
-import { LEAST_DRAG, placeDrag } from './place-drag.js';
+import { placeDrag, press } from './place-drag.js';
 import { stopDrag } from './plan-drag.js';
 import { t } from '../texts.js';
 
@@ -95,41 +95,21 @@ function handleAt({ location, title }) {
 function listen(view, marker, { drag }, hold) {
   const element = marker.getElement().firstElementChild;
   L.DomEvent.disableClickPropagation(element);
-  const pointOf = (event) => view.map.mouseEventToContainerPoint(event);
   element.addEventListener('pointerdown', (event) => {
     if (event.button !== 0) return;
-    event.preventDefault();
-    event.stopPropagation();
-    element.setPointerCapture(event.pointerId);
     hold(true);
-    const from = pointOf(event);
     const work = drag(view);
-    const ending = new AbortController();
-    let isDrag = false;
-    const move = (moved) => {
-      const point = pointOf(moved);
-      isDrag ||= point.distanceTo(from) > LEAST_DRAG;
-      if (!isDrag) return;
-      element.classList.add('held');
-      marker.setLatLng(view.map.containerPointToLatLng(point));
-      work.follow(point);
-    };
-    const end = (drop) => {
-      ending.abort();
-      work.clear();
-      marker.remove();
-      if (isDrag) drop?.();
-      hold(false);
-    };
-    const on = (target, name, react) =>
-      target.addEventListener(name, react, { signal: ending.signal });
-    on(element, 'pointermove', move);
-    on(element, 'pointerup', (last) => {
-      // The last moves before it may not have been told.
-      move(last);
-      end(work.drop);
-    });
-    on(element, 'pointercancel', () => end());
-    on(document, 'keydown', ({ key }) => key === 'Escape' && end());
+    press(view, {
+      follow(point) {
+        element.classList.add('held');
+        marker.setLatLng(view.map.containerPointToLatLng(point));
+        work.follow(point);
+      },
+      clear() {
+        work.clear();
+        hold(false);
+      },
+      drop: work.drop,
+    }, event);
   });
 }

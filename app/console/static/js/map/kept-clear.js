@@ -2,6 +2,7 @@
 
 const STEP = 8; // pixels from point to point of a line
 const AROUND = [-12, 0, 12]; // pixels around a label
+const ABOVE = 17; // pixels from a place to the label of its trip
 
 /** Return points of the map where a view draws lines, marks and labels. */
 export function pointsOn({ map, entries, labels, numbers }) {
@@ -13,7 +14,8 @@ export function pointsOn({ map, entries, labels, numbers }) {
   for (const group of [labels, numbers]) {
     group.eachLayer((label) => {
       const [x, y] = pointAt(map, label);
-      points.push(...AROUND.map((aside) => [x + aside, y]));
+      const above = label.options.icon.options.className.includes('trip-mark') ? ABOVE : 0;
+      points.push(...AROUND.map((aside) => [x + aside, y - above]));
     });
   }
   return points;

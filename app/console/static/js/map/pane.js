@@ -70,7 +70,8 @@ function Ground({ request }) {
     return null;
   }
   return html`<${Menu} id="ground" name=${t('map.ground')} label=${html`<${Icon}
-      name="layers" />`}><section><h2>${t('map.ground')}</h2><p>${t('map.groundHelp')}</p>
+      name="layers" />${!tiles && !config.streets.length && t('map.streets')}`}>
+      <section><h2>${t('map.ground')}</h2><p>${t('map.groundHelp')}</p>
       <button type="button" popovertarget="ground" popovertargetaction="hide"
         onClick=${() => layOut({ tiles: !tiles })}>${
         tiles ? t('map.own') : t('map.fromServer')}</button></section></${Menu}>`;

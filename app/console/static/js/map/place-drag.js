@@ -6,8 +6,7 @@ import { leaflet } from '../libraries.js';
 
 const L = leaflet();
 
-/** Pixels of a drag, below which it is a click. */
-export const LEAST_DRAG = 6;
+const LEAST_DRAG = 6; // pixels, below which it is a click
 
 /** Return what follows a drag by which a customer gets another place. */
 export function placeDrag(view, id) {
@@ -42,7 +41,7 @@ export function pressSite(view, { id, mark }, event) {
 }
 
 /** Let the work of a drag follow the pointer until it is let go; Escape gives it up. */
-function press(view, work, originalEvent, onDrop = () => {}) {
+export function press(view, work, originalEvent, onDrop = () => {}) {
   const { map } = view;
   const pointOf = (event) => map.mouseEventToContainerPoint(event);
   const from = pointOf(originalEvent);

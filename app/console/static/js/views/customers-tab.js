@@ -135,20 +135,22 @@ function CustomerRow({
       title=${customer.id}
       onClick=${() => select(selected ? null : key)}><${Name}>${customer.id}</${Name}>
       </button>${doubted && html` <span class="late-text" role="img" 
-      aria-label=${t('customers.doubtful')} title=${t('customers.doubtful')}>?</span>`}</th>
+      aria-label=${t('customers.doubtful')} title=${t('customers.doubtful')}>?</span>`}${
+        halt?.alternative && html`<small>${halt.alternative}</small>`}</th>
     ${columns.amount && html`<td ...${cell('demand')}
       class=${`number ${errors?.has('demand') ? 'invalid' : ''}`}>
       ${amounts(customer.demand ?? [])}</td>`}
     ${columns.window && html`<td
       ...${cell(customer.time_windows ? 'time_windows' : 'time_window')}>
-      ${windowsInCell(windowsOf(customer))}</td>`}
+      ${windowsInCell(
+        halt?.alternative ? [halt.window].filter(Boolean) : windowsOf(customer))}</td>`}
     ${columns.by && html`<td ...${cell('served_by')}
       class=${`roomy ${errors?.has('served_by') ? 'invalid' : ''}`}>
       ${t(`customers.by.${customer.served_by ?? 'either'}`)}</td>`}
     ${index && html`<td class=${`number ${late || !halt ? 'late-text' : ''}`}>${
       halt ? clock(halt.arrival) : t('customers.notServed')}${said && html`<small
         class=${`news ${said.kind}`}>${said.text}</small>`}${late && html`<small
-        >${late}</small>`}${halt?.alternative && html`<small>${halt.alternative}</small>`}</td>`}
+        >${late}</small>`}</td>`}
     </tr>`;
 }
 
