@@ -66,6 +66,14 @@ def test_map_panel_and_timeline_are_linked_both_ways(page: Page) -> None:
     expect(page.locator(".stop-mark span").first).to_be_visible()
 
 
+BESIDE_DETAILS = """() => {
+  const { left } = document.querySelector('.details').getBoundingClientRect();
+  return [...document.querySelectorAll('.stop-mark span')].every((stop) =>
+    stop.getBoundingClientRect().right <= left);
+}"""
+"""Tells whether no number of a stop lies below what is told of its trip."""
+
+
 def test_stops_have_numbers_where_there_is_room_and_all_of_whose_is_selected(page: Page) -> None:
     open_example(page, "smallest")
     numbers = page.locator(".stop-mark span")
@@ -74,6 +82,7 @@ def test_stops_have_numbers_where_there_is_room_and_all_of_whose_is_selected(pag
     stops = state(page, "state.plans.0.plan.routes.0.trips.0.stops.length")
     page.evaluate("async () => (await loaded('actions.js')).select('t:0/0')")
     expect(numbers).to_have_text([str(number) for number in range(1, stops - 1)])
+    page.wait_for_function(BESIDE_DETAILS)
 
 
 def test_timeline_is_no_higher_than_its_rows(page: Page) -> None:

@@ -14,13 +14,13 @@ const OVER = '.draw-bar button, .map-tools, .leaflet-control, .map-legend, .map-
 /** What may lie over a part of it, and reaches beyond it. */
 const BESIDE = '.panel, .details';
 
-/** Show all of some lines of places `[x, y]`, single places among them. */
-export function fitWhole(map, lines) {
+/** Show all of some lines of places `[x, y]`, single places among them, no closer than `most`. */
+export function fitWhole(map, lines, most = Infinity) {
   const whole = boundsOf(lines.flat());
   if (!whole) return;
   const [west, south, east, north] = whole;
   const bounds = L.latLngBounds([[south, west], [north, east]]);
-  const views = paddingsFor(map).map((padding) => viewOf(map, bounds, padding));
+  const views = paddingsFor(map).map((padding) => viewOf(map, bounds, padding, most));
   // The closest first; where two are as close, that which leaves the plan in the middle.
   views.sort((one, other) => other.zoom - one.zoom || one.padded - other.padded);
   const flat = flattened(map, lines);
@@ -29,10 +29,10 @@ export function fitWhole(map, lines) {
   map.setView(best.center, best.zoom, { animate: false });
 }
 
-/** Tell whether all of some lines is in view, and nothing lies on it. */
-export function isSeen(map, lines) {
+/** Tell whether all of some lines is in view, and nothing lies on it, or none of what is large. */
+export function isSeen(map, lines, isLarge = false) {
   const view = { center: map.getCenter(), zoom: map.getZoom() };
-  return isClear(map, flattened(map, lines), view, overOn(map));
+  return isClear(map, flattened(map, lines), view, overOn(map, isLarge));
 }
 
 /** Return lines in pixels of zoom 0, of which those of any zoom are multiples. */
@@ -41,8 +41,9 @@ function flattened(map, lines) {
 }
 
 /** Return the view `{center, zoom, padded}` of a region with room `[left, top, right, bottom]`. */
-function viewOf(map, bounds, [left, top, right, bottom]) {
-  const zoom = map.getBoundsZoom(bounds, false, L.point(left + right, top + bottom));
+function viewOf(map, bounds, [left, top, right, bottom], most) {
+  const room = L.point(left + right, top + bottom);
+  const zoom = Math.min(map.getBoundsZoom(bounds, false, room), most);
   const [start, end] = [bounds.getSouthWest(), bounds.getNorthEast()].map((corner) =>
     map.project(corner, zoom));
   const middle = start.add(end).add([right - left, bottom - top]).divideBy(2);
@@ -68,9 +69,9 @@ function touches(points, box) {
 }
 
 /** Return where something lies on a map, in pixels from its corner. */
-function overOn(map) {
+function overOn(map, isLarge = false) {
   const frame = map.getContainer().getBoundingClientRect();
-  const over = map.getContainer().parentElement.querySelectorAll(OVER);
+  const over = isLarge ? [] : map.getContainer().parentElement.querySelectorAll(OVER);
   return [...over, ...document.querySelectorAll(BESIDE)]
     .map((element) => element.getBoundingClientRect())
     .filter(({ width, height }) => width && height)

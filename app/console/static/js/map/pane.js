@@ -151,7 +151,8 @@ function followMarks(view, request, index) {
       const about = describe(request, index, key);
       render(about && html`<strong>${about.title}</strong><${Facts} facts=${about.facts} />`, tip);
       view.tip(key, about && tip);
-      if (!hovered && selection) view.reveal(selection);
+      // Details lie over the map once they are drawn.
+      if (!hovered && selection) requestAnimationFrame(() => view.reveal(selection));
     }
   };
   follow(store.get());

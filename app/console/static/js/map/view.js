@@ -286,16 +286,13 @@ export class MapView {
     this.tooltip.update();
   }
 
-  /** Bring what a key names into view, if it is outside. */
+  /** Bring what a key names into view, if it is outside or below what is told of it. */
   reveal(key) {
-    const entry = this.#entryOf(key);
+    const entry = !this.isGone && this.#entryOf(key);
     if (!entry) return;
-    const bounds = entry.layer.getBounds?.() ?? L.latLngBounds([entry.layer.getLatLng()]);
-    if (!this.map.getBounds().contains(bounds)) {
-      if (entry.layer.getBounds)
-        this.map.fitBounds(bounds, { padding: [60, 60], maxZoom: this.map.getZoom() });
-      else this.map.panInside(entry.layer.getLatLng(), { padding: [70, 70] });
-    }
+    const { lng, lat } = entry.layer.getLatLng?.() ?? {};
+    const lines = lng === undefined ? waysOf(entry) : [[[lng, lat]]];
+    if (!isSeen(this.map, lines, true)) fitWhole(this.map, lines, this.map.getZoom());
   }
 
   /** Note where vehicles were seen, `{location, text}`. */

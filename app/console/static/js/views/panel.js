@@ -5,7 +5,6 @@ import { ROOMS, roomOf } from '../core/rooms.js';
 import { layOut, SHEETS } from '../frame.js';
 import { html } from '../libraries.js';
 import { store, useStore } from '../store.js';
-import { ChangesTab } from './changes-tab.js';
 import { CostsTab } from './costs-tab.js';
 import { CustomersTab } from './customers-tab.js';
 import { Details } from './details.js';
@@ -15,12 +14,13 @@ import { Edge } from './edge.js';
 import { FleetTab } from './fleet-tab.js';
 import { HandBar } from './hand-bar.js';
 import { later } from './later.js';
-import { ReplanTab } from './replan-tab.js';
 import { RoutesTab } from './routes-tab.js';
 import { SolveTab } from './solve-tab.js';
 import { nextOf } from './tab-list.js';
 import { t } from '../texts.js';
 
+const ChangesTab = later(async () => (await import('./changes-tab.js')).ChangesTab);
+const ReplanTab = later(async () => (await import('./replan-tab.js')).ReplanTab);
 const ExportTab = later(async () => (await import('./export-tab.js')).ExportTab);
 const ScenariosTab = later(async () => (await import('./scenarios-tab.js')).ScenariosTab);
 const UnassignedTab = later(
