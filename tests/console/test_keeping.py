@@ -95,7 +95,7 @@ def test_crash_and_reload_lose_nothing(alone: Page, service: str) -> None:
     idle(page)
     edit(page, "Zoe")
     expect(page.get_by_role("img", name="not saved")).to_be_visible()
-    assert page.title() == "\u2022 smallest \u2013 Tandem"
+    assert page.title() == "\u2022 Two customers \u2013 Tandem"
     before = [state(page, f"state.{part}") for part in ("request", "plans", "past", "besides")]
     with pytest.raises(Error, match="crash"):
         page.goto("chrome://crash")
@@ -103,7 +103,7 @@ def test_crash_and_reload_lose_nothing(alone: Page, service: str) -> None:
     for _ in ("after the crash", "loaded anew"):
         assert [state(tab, f"state.{part}") for part in
                 ("request", "plans", "past", "besides")] == before
-        assert tab.title() == "\u2022 smallest \u2013 Tandem"
+        assert tab.title() == "\u2022 Two customers \u2013 Tandem"
         expect(tab.get_by_text("The problem has changed since")).to_be_visible()
         loaded_anew(tab)
     tab.keyboard.press("u")

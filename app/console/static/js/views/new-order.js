@@ -43,7 +43,7 @@ export function NewOrder({ open = false }) {
         ${told.places.map((place) => html`<button type="button" key=${place.label}
           onClick=${() => put(place)}>${candidateInWords(place)}</button>`)}</div>`}
       <div class="order-fields">${field('amount', { hint: unitsOf(request) })}
-        ${field('opens', { hint: '10:30' })}${field('closes', { hint: '12:00' })}
+        ${field('opens', { hint: '--:--' })}${field('closes', { hint: '--:--' })}
         ${field('name', { hint: t('orders.nameHint') })}</div>
       <div class="buttons"><button type="submit" class="primary">${t('orders.price')}</button></div>
     </form>`}</details>`;

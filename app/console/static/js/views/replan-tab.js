@@ -64,7 +64,7 @@ function Now({ value, label, onSet, errors = [], primary = true }) {
   const id = 'field-replan-freeze_before';
   return html`<div class=${`field now ${errors.length ? 'invalid' : ''}`}>
     <label for=${id}>${t('field.freeze_before')}</label>
-    <input type="text" id=${id} value=${text} placeholder="10:30" autocomplete="off"
+    <input type="text" id=${id} value=${text} placeholder="--:--" autocomplete="off"
       aria-invalid=${(isWrong && text !== '') || errors.length > 0}
       aria-describedby="replan-now-error"
       onInput=${(event) => setText(event.target.value)}
