@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from pathlib import Path
 from typing import Any
 
 import httpx
@@ -9,7 +10,7 @@ import pytest
 from playwright.sync_api import Browser, BrowserContext, ConsoleMessage, Page, Request, expect
 
 from tests.conftest import PATIENCE
-from tests.console.serving import VIEWPORT, WAIT_MS, chromium, new_context, serving
+from tests.console.serving import VIEWPORT, WAIT_MS, chromium, new_context, shared
 from tests.console.steps import awaited, beginning, idle
 
 OF_A_PAGE = {"viewport", "color_scheme"}
@@ -19,9 +20,13 @@ expect.set_options(timeout=WAIT_MS)
 
 
 @pytest.fixture(scope="session")
-def service(tmp_path_factory: pytest.TempPathFactory) -> Iterator[str]:
-    """Return the address of a service with its real planner; see `tests.console.service`."""
-    with serving(tmp_path_factory.mktemp("console"), "tests.console.service") as address:
+def service(shared_folder: Path) -> Iterator[str]:
+    """Return the address of a service with its real planner; see `tests.console.service`.
+
+    All processes that run tests ask it, so that plans may have to wait for each other.
+    """
+    with shared(shared_folder / "console", "tests.console.service",
+                TANDEM_MAX_QUEUED_PLANS="100", TANDEM_MAX_QUEUE_SECONDS=str(PATIENCE)) as address:
         yield address
 
 

@@ -1,16 +1,20 @@
 """A service of its own for the console's tests, and the browser that looks at it."""
 
+import json
 import os
 import shutil
 import subprocess
 import sys
 import time
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager, suppress
+from fcntl import LOCK_EX, LOCK_NB, LOCK_SH, flock
 from pathlib import Path
+from signal import SIGTERM
 from typing import Any
 
 import httpx
+from filelock import FileLock
 from playwright.sync_api import (
     Browser, BrowserContext, BrowserType, Error, ViewportSize, sync_playwright,
 )
@@ -53,27 +57,69 @@ def serving(folder: Path, module: str = "app.cli", **settings: str) -> Iterator[
     settings
         Variables of the environment besides.
     """
-    port = free_port()
-    environment = {name: value for name, value in os.environ.items()
-                   if not name.startswith("TANDEM_")}
-    environment |= {"PYTHONPATH": str(ROOT), "TANDEM_DATA_DIR": str(folder),
-                    "TANDEM_MAX_CUSTOMERS": "3000"} | settings
     log = folder / "service.log"
+    address, command, environment = _stated(folder, module, settings)
     with log.open("wb") as output:
-        process = subprocess.Popen([sys.executable, "-m", module, "serve", "--port", str(port)],
-                                   env=environment, stdout=output, stderr=subprocess.STDOUT)
-    address = f"http://127.0.0.1:{port}"
+        process = subprocess.Popen(command, env=environment, stdout=output,
+                                   stderr=subprocess.STDOUT)
     try:
-        _wait_until_ready(process, address, log)
+        _wait_until_ready(lambda: process.poll() is None, address, log)
         yield address
     finally:
         process.terminate()
         process.wait(PATIENCE)
 
 
-def _wait_until_ready(process: subprocess.Popen[bytes], address: str, log: Path) -> None:
+def _stated(folder: Path, module: str, settings: dict[str, str],
+            ) -> tuple[str, list[str], dict[str, str]]:
+    """Return where a service is to answer, what starts it, and its environment."""
+    port = free_port()
+    environment = {name: value for name, value in os.environ.items()
+                   if not name.startswith("TANDEM_")}
+    environment |= {"PYTHONPATH": str(ROOT), "TANDEM_DATA_DIR": str(folder),
+                    "TANDEM_MAX_CUSTOMERS": "3000"} | settings
+    command = [sys.executable, "-m", module, "serve", "--port", str(port)]
+    return f"http://127.0.0.1:{port}", command, environment
+
+
+@contextmanager
+def shared(folder: Path, module: str, **settings: str) -> Iterator[str]:
+    """Serve to all processes that run tests, like `serving`: the last one ends the service.
+
+    To start one and to keep it idle would take a quarter of a minute's work for each of them.
+    """
+    folder.mkdir(exist_ok=True)
+    told, log = folder / "service.json", folder / "service.log"
+    lock = FileLock(folder / "lock")
+    with (folder / "users").open("a") as users:
+        with lock:
+            flock(users, LOCK_SH)
+            if not told.exists():
+                address, command, environment = _stated(folder, module, settings)
+                # It is no child of whoever starts it, who may end before others.
+                shell = ["sh", "-c", '"$@" > "$0" 2>&1 & echo $!', str(log), *command]
+                pid = int(subprocess.check_output(shell, env=environment))
+                _wait_until_ready(lambda: _is_there(pid), address, log)
+                told.write_text(json.dumps([pid, address]))
+            pid, address = json.loads(told.read_text())
+        yield address
+        with lock, suppress(BlockingIOError):
+            flock(users, LOCK_EX | LOCK_NB)  # who was killed holds it no longer
+            told.unlink()
+            os.kill(pid, SIGTERM)
+
+
+def _is_there(pid: int) -> bool:
+    try:
+        os.kill(pid, 0)
+    except ProcessLookupError:
+        return False
+    return True
+
+
+def _wait_until_ready(is_there: Callable[[], bool], address: str, log: Path) -> None:
     give_up = time.monotonic() + PATIENCE
-    while time.monotonic() < give_up and process.poll() is None:
+    while time.monotonic() < give_up and is_there():
         try:
             if httpx.get(f"{address}/health/ready", trust_env=False).status_code == 200:
                 return
