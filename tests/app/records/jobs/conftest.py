@@ -109,7 +109,8 @@ def serving(settings: Settings, planner: SteppingPlanner | None = None) -> Itera
         thread.start()
         address = f"http://127.0.0.1:{listener.getsockname()[1]}"
         try:
-            with httpx.Client(base_url=address, timeout=PATIENCE, trust_env=False) as client:
+            with httpx.Client(base_url=address, timeout=PATIENCE, trust_env=False,
+                              verify=False) as client:
                 eventually(lambda: client.get("/health/ready").status_code == 200)
                 yield client
         finally:
