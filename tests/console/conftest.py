@@ -26,7 +26,8 @@ def service(shared_folder: Path) -> Iterator[str]:
     All processes that run tests ask it, so that plans may have to wait for each other.
     """
     with shared(shared_folder / "console", "tests.console.service",
-                TANDEM_MAX_QUEUED_PLANS="100", TANDEM_MAX_QUEUE_SECONDS=str(PATIENCE)) as address:
+                TANDEM_MAX_CONCURRENT_PLANS="4", TANDEM_MAX_QUEUED_PLANS="100",
+                TANDEM_MAX_QUEUE_SECONDS=str(PATIENCE)) as address:
         yield address
 
 

@@ -83,7 +83,7 @@ def _stated(folder: Path, module: str, settings: dict[str, str],
 
 
 @contextmanager
-def shared(folder: Path, module: str, **settings: str) -> Iterator[str]:
+def shared(folder: Path, module: str = "app.cli", **settings: str) -> Iterator[str]:
     """Serve to all processes that run tests, like `serving`: the last one ends the service.
 
     To start one and to keep it idle would take a quarter of a minute's work for each of them.

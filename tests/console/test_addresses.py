@@ -8,7 +8,7 @@ import pytest
 from playwright.sync_api import Page, expect
 
 from tests.app.maps.addresses.conftest import helsinki  # noqa: F401
-from tests.console.serving import serving
+from tests.console.serving import shared
 from tests.console.steps import idle, open_file, open_tab, planned, state
 
 pytestmark = pytest.mark.slow
@@ -26,9 +26,8 @@ REQUEST = {
 
 
 @pytest.fixture(scope="module")
-def finding(helsinki: Path, tmp_path_factory: pytest.TempPathFactory) -> Iterator[str]:  # noqa: F811
-    with serving(tmp_path_factory.mktemp("finding"),
-                 TANDEM_GEOCODER=f"extract:{helsinki}") as address:
+def finding(helsinki: Path, shared_folder: Path) -> Iterator[str]:  # noqa: F811
+    with shared(shared_folder / "finding", TANDEM_GEOCODER=f"extract:{helsinki}") as address:
         yield address
 
 

@@ -14,12 +14,13 @@ from tests.console.steps import (
 )
 from tests.console.test_hands import bar_of, hands, told, tours
 from tests.console.test_speed import large_problem
+from tests.seeds import often
 
 pytestmark = pytest.mark.slow
 
 __all__ = ["hands"]
 
-DRAGS, COUNT = 20, 300
+DRAGS, COUNT = often(20), 300
 Stroke = Callable[[list[tuple[float, float]]], None]
 
 POSITION = """() => {
@@ -60,7 +61,7 @@ def by_finger(page: Page) -> Stroke:
 
 
 def random_drags(page: Page, selector: str, stroke: Stroke) -> int:
-    """Drag twenty times within an element; return how often the map stood elsewhere after it."""
+    """Drag often within an element; return how often the map stood elsewhere after it."""
     page.locator(selector).scroll_into_view_if_needed()
     box = page.locator(selector).bounding_box()
     assert box is not None

@@ -15,7 +15,7 @@ from tests.app.maps.roads.conftest import prepared_once
 from tests.app.maps.roads.wheels import WHEELS, pinned, unpacked
 from tests.conftest import PATIENCE, eventually
 from tests.console.conftest import opening
-from tests.console.serving import serving
+from tests.console.serving import shared
 from tests.console.steps import awaited, idle, open_file, place_of, planned, state
 
 pytestmark = pytest.mark.slow
@@ -77,15 +77,15 @@ HIDDEN = """(lines) => {
 
 
 @pytest.fixture(scope="module")
-def city(shared_folder: Path, tmp_path_factory: pytest.TempPathFactory) -> Iterator[str]:
+def city(shared_folder: Path) -> Iterator[str]:
     """Return the address of a service with the roads and streets of Helsinki's centre."""
     unpacked(pinned("osrm-bindings"))
     osrm = WHEELS / "osrm"
     tools = Tools(osrm / "bin", osrm / "share" / "profiles")
     extract = prepared_once(tools, shared_folder).path
-    with serving(tmp_path_factory.mktemp("streets"), "tests.console.service",
-                 TANDEM_ROADS=f"truck=car:{extract}",
-                 PATH=f"{osrm / 'bin'}{os.pathsep}{os.environ['PATH']}") as address:
+    with shared(shared_folder / "streets", "tests.console.service",
+                TANDEM_ROADS=f"truck=car:{extract}",
+                PATH=f"{osrm / 'bin'}{os.pathsep}{os.environ['PATH']}") as address:
         # A console knows of the streets that were drawn when it was opened.
         eventually(lambda: httpx.get(f"{address}/console/config.json", trust_env=False,
                                      timeout=PATIENCE).json()["streets"])
