@@ -105,9 +105,11 @@ def slow_texts(work: Callable[[str], object]) -> list[str]:
     """Return starts of texts whose time grows faster than their length."""
     slow = []
     for text, parts in zip(texts(SIZE), parts_of_texts(), strict=True):
-        if seconds_of(partial(work, text)) > QUICK:
-            longer, short = text_of(LONGER, *parts), seconds_of(partial(work, text), 3)
-            # Most is proportional, which a first look shows; a busy machine needs some more.
+        first = seconds_of(partial(work, text))
+        longer = text_of(LONGER, *parts)
+        # Most is proportional, which a first look shows; a busy machine needs some more.
+        if first > QUICK and seconds_of(partial(work, longer)) > GROWTH * first:
+            short = seconds_of(partial(work, text), 3)
             if short > QUICK and all(seconds_of(partial(work, longer)) > GROWTH * short
                                      for _ in range(LOOKS)):
                 slow.append(text[:60])
