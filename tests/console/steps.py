@@ -82,6 +82,15 @@ def open_tab(page: Page, name: str) -> None:
         page.locator(f"#tab-{name}").click()
 
 
+def follow(page: Page, dispatch: str) -> None:
+    """Follow a plan that is on the road, of which the service may have others."""
+    page.get_by_role("button", name="Look for them").click()
+    buttons = page.get_by_role("button", name="Follow the plan of")
+    expect(buttons.first).to_be_visible()
+    found = [each["id"] for each in state(page, "state.onTheRoad")]
+    buttons.nth(found.index(dispatch)).click()
+
+
 def show_rules(page: Page) -> None:
     """Show the rules that few need, of all vehicle types or of who is selected."""
     expect(page.locator("details.finder").last).to_be_visible()

@@ -20,7 +20,9 @@ from tests.app.records.dispatches.days import (
 )
 from tests.conftest import PATIENCE, eventually
 from tests.console.serving import new_context
-from tests.console.steps import open_example, open_file, open_tab, planned, state
+from tests.console.steps import (
+    follow, open_example, open_file, open_tab, planned, state,
+)
 from tests.console.test_everyone import findings
 
 pytestmark = pytest.mark.slow
@@ -298,11 +300,11 @@ def test_plan_is_sent_out_followed_and_planned_on_from(page: Page) -> None:
     page.reload()
     open_tab(page, "drivers")
     expect(card).to_contain_text(f"1 of {len(day['steps'])}")
+    dispatch = state(page, "state.dispatch.reply.id")
     page.evaluate("sessionStorage.removeItem('tandem-dispatch')")  # as in another tab
     page.reload()
     open_tab(page, "drivers")
-    page.get_by_role("button", name="Look for them").click()
-    page.get_by_role("button", name="Follow the plan of").first.click()
+    follow(page, dispatch)
     expect(card).to_contain_text(f"1 of {len(day['steps'])}")
     open_example(page, "drones")
     open_tab(page, "drivers")

@@ -11,7 +11,7 @@ from playwright.sync_api import Browser, BrowserContext, Page, expect
 
 from tests.app.records.dispatches.days import PLAN, PROBLEM, dispatched
 from tests.console.serving import new_context
-from tests.console.steps import open_tab
+from tests.console.steps import follow, open_tab
 from tests.console.test_drivers import PHONE, mark, open_page
 from tests.console.test_everyone import findings
 
@@ -75,8 +75,7 @@ def test_proof_taken_without_network_comes_to_the_dispatcher(
     picture = client.get(f"/dispatches/{sent['id']}/proofs/truck-1/{proof['id']}/photo")
     assert picture.content[:3] == b"\xff\xd8\xff"  # made small on the phone
     open_tab(page, "drivers")
-    page.get_by_role("button", name="Look for them").click()
-    page.get_by_role("button", name="Follow the plan of").first.click()
+    follow(page, sent["id"])
     page.get_by_text("Proofs of delivery").click()
     page.get_by_role("button", name="Signature for A").click()
     drawn = page.locator(".proofs img")

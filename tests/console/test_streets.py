@@ -245,7 +245,7 @@ def test_plan_that_is_changed_by_hand_keeps_to_the_roads(shown: Page) -> None:
                       for name in ("Earlier", "Later"))
     (earlier if earlier.is_enabled() else later).click()
     expect(shown.locator("#hand-outcome")).to_be_visible()
-    assert roads_of(shown) > 2
+    eventually(lambda: roads_of(shown) > 2)
 
 
 KEEP = """async ([isLinked]) => {
