@@ -41,8 +41,7 @@ typedef struct tandem_setup {
     int64_t site, setup_duration;
 } tandem_setup;
 
-/* What lateness and waiting at a node cost per hour, in a search per ms; and what it costs once to
-   be late at all. */
+/* What lateness and waiting at a node cost per hour, in a search per ms, and being late at all. */
 typedef struct tandem_price {
     double lateness, waiting, late;
 } tandem_price;
@@ -416,8 +415,7 @@ typedef struct tandem_problem_data {
     tandem_i64_1d deadline; /* (2,) when the search must end, as `model.engine.alarm` says */
 } tandem_problem_data;
 
-/* A search: its routes, all that it works with, and the memory of both. It belongs to the engine.
- */
+/* A search: its routes and all that it works with. It belongs to the engine. */
 typedef struct tandem_search tandem_search;
 
 /* What Python sees of a search. */
@@ -500,8 +498,7 @@ int tandem_close_state(tandem_state* state);
 int tandem_look_at_state(tandem_state* state, tandem_state_seen* seen);
 /* Tell of the open vehicle of a rollout. */
 int tandem_look_at_vehicle(tandem_state* state, int64_t r, tandem_under_way* vehicle);
-/* Write the codes of the legal actions and what each on a customer leads to; `found` is how many.
- */
+/* Write the codes of the legal actions and what each on a customer leads to; tell how many. */
 int tandem_legal_actions(const tandem_instance* instance, tandem_state* state, int64_t r,
                          int64_t scratch, const tandem_i64_1d* actions,
                          const tandem_outlook_1d* outlooks, int64_t* found);
@@ -536,8 +533,7 @@ typedef struct tandem_course {
     tandem_i64_1d actions; /* codes */
 } tandem_course;
 
-/* List and describe the legal actions of the rollouts `first` to `behind`; `most` of any of them.
- */
+/* List and describe legal actions of the rollouts `first` to `behind`; `most` of any of them. */
 int tandem_observe(const tandem_scene* scene, tandem_state* state, int64_t first, int64_t behind,
                    int64_t scratch, const tandem_observation* seen, int64_t* most);
 /* Do what was chosen of what was seen, then observe. */
@@ -657,12 +653,16 @@ int tandem_join(const tandem_problem_data* data, int64_t k, int64_t ranks,
 /* Begin with the routes of a plan; those that break a rule are left to be planned anew. */
 int tandem_begin(const tandem_problem_data* data, tandem_search* search,
                  const tandem_i64_1d* numbers);
+/* Price a route for a customer alone anew, whose window or whom he is served by has changed. */
+int tandem_price_alone(const tandem_problem_data* data, tandem_search* search, int64_t node);
 /* Tell what the truck's legs between customers cost on average, and what those left out do. */
 int tandem_leg_cost(const tandem_problem_data* data, tandem_search* search, double* cost,
                     double* missing);
 /* Tell the routes of the best plan, whose trips begin as late as costs nothing; fails if nobody can
-   drive one. */
+   drive one. Or those alone that a whole lacks, by its places; one without trips is gone. */
 int tandem_tell_best(const tandem_problem_data* data, tandem_search* search, tandem_plan* plan);
+int tandem_tell_changed(const tandem_problem_data* data, tandem_search* search,
+                        tandem_search* whole, tandem_plan* plan);
 
 /* Tell the sum of digests of all that insertions were found to cost since the last call, in builds
    with TANDEM_TRACED; nought in others. */

@@ -203,7 +203,7 @@ def _pack_customers(instance: Instance, row: int, problem: Problem,
     """Write what the customers of one problem ask for, and the setups at all nodes. In place."""
     depots, nodes = problem.num_depots, problem.num_nodes
     served = instance.node[row, :, depots:nodes]
-    served[0, :, 0] = [_customer_row(customer) for customer in problem.customers]
+    served[0, :, 0] = [customer_row(customer) for customer in problem.customers]
     _pack_gaps(served[0, :, 1:], problem.customers)
     for variant, ((_, weighs), duration) in enumerate(durations.items()):
         served[variant] = served[0]
@@ -252,7 +252,7 @@ def _pack_gaps(rows: Records, customers: Sequence[Customer]) -> None:
             row[gap].window_latest, row[gap].window_earliest = closes, opens
 
 
-def _customer_row(customer: Customer) -> tuple[Any, ...]:
+def customer_row(customer: Customer) -> tuple[Any, ...]:
     limit = customer.latest if customer.late_cost_per_hour is None else FAR
     return (customer.earliest, limit, customer.service_duration, customer.release_time,
             customer.latest, padded(customer.demand, DIMENSIONS_PER_TIER))

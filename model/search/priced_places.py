@@ -51,15 +51,16 @@ class PlacePrices:
         neighbourhood = make_neighbourhood(problem, instance)
         data = make_data(problem, instance, neighbourhood=neighbourhood,
                          deadline=Alarm(deadline).setting)
-        self._nodes = neighbourhood.numbering.node.tolist()
-        self._numbers = neighbourhood.numbering.number.tolist()
-        self._searcher = make_searcher(
-            problem, data, renumbered(solution, self._numbers.__getitem__),
+        self.nodes = neighbourhood.numbering.node.tolist()
+        self.numbers = neighbourhood.numbering.number.tolist()
+        self.laid = data
+        self.searcher = make_searcher(
+            problem, data, renumbered(solution, self.numbers.__getitem__),
             np.random.SeedSequence(0))
         self._data = packed(data)
         self._costs = np.zeros(MOST_PLACES)
         self._rows = np.zeros((MOST_PLACES, MOST_PLACED, len(Placement._fields)), np.int64)
-        active: IntArray = self._searcher.active[:self._searcher.count.active]
+        active: IntArray = self.searcher.active[:self.searcher.count.active]
         self.routes = tuple(sorted(active.tolist()))
         """Indices of the plan's routes that keep the rules as the search times them."""
 
@@ -68,7 +69,7 @@ class PlacePrices:
 
         The cheapest by truck alone, then those with drones. Raises `EndedError` at the deadline.
         """
-        count = call("tandem_write_places", self._data, self._searcher, self._numbers[node], route,
+        count = call("tandem_write_places", self._data, self.searcher, self.numbers[node], route,
                      self._costs, self._rows)
         for cost, rows in zip(self._costs[:count].tolist(), self._rows[:count].tolist(),
                               strict=True):
@@ -82,5 +83,5 @@ class PlacePrices:
             return None
 
     def _placed(self, node: int, how: int, first: int, last: int, drone: int) -> Placement:
-        return Placement(self._nodes[node], how, self._nodes[first] if how == RIDE else first, last,
+        return Placement(self.nodes[node], how, self.nodes[first] if how == RIDE else first, last,
                       drone)

@@ -204,6 +204,14 @@ void tell_route(const ProblemData& data, const Fleet& fleet, Int slot, Int vehic
     }
 }
 
+// Tells a route as a vehicle's, its trips begun as late as costs nothing. In place.
+void tell_timed(const ProblemData& data, Fleet& fleet, Int slot, Int vehicle, Plan& plan) {
+    if (!finish_route(data, fleet, slot)) {
+        throw std::invalid_argument("nobody can drive the route");
+    }
+    tell_route(data, fleet, slot, vehicle, plan);
+}
+
 }  // namespace
 
 Int read_plan(const Fleet& fleet, View<const Int, 1> numbers) {
@@ -225,10 +233,22 @@ void tell_routes(const ProblemData& data, Fleet& fleet, Int slots, Plan& plan) {
     for (Int slot = 0; slot < slots; ++slot) {
         const Route& route = fleet.route[slot];
         if (route.length == 0) continue;
-        if (!finish_route(data, fleet, slot)) {
-            throw std::invalid_argument("nobody can drive the route");
+        tell_timed(data, fleet, slot, vehicles[std::size_t(route.type)]++, plan);
+    }
+}
+
+// Tells the best routes that aren't those of another search in the same order, by the numbers of
+// their slots for vehicles; without trips, there is none any more. In place, as `tell_routes`.
+void tell_changed(const ProblemData& data, Searcher& searcher, const Searcher& whole, Plan& plan) {
+    const Fleet& best = searcher.best;
+    for (Int slot = 0; slot < searcher.active.size(); ++slot) {
+        const Int before = slot < whole.count->active ? whole.active[slot] : nowhere;
+        const Route& route = best.route[slot];
+        if (route.length == 0) {
+            if (before >= 0) plan.numbers.insert(plan.numbers.end(), {route.type, slot, 0});
+        } else if (before < 0 || !is_same(best, slot, whole.now, before)) {
+            tell_timed(data, searcher.best, slot, slot, plan);
         }
-        tell_route(data, fleet, slot, vehicles[std::size_t(route.type)]++, plan);
     }
 }
 
@@ -248,4 +268,9 @@ extern "C" int tandem_tell_best(const tandem_problem_data* data, tandem_search* 
                                 tandem_plan* plan) {
     return guarded(
         [&] { tell_routes(data_of(*data), search->best, search->active.size(), *plan); });
+}
+
+extern "C" int tandem_tell_changed(const tandem_problem_data* data, tandem_search* search,
+                                   tandem_search* whole, tandem_plan* plan) {
+    return guarded([&] { tell_changed(data_of(*data), *search, *whole, *plan); });
 }

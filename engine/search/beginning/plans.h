@@ -14,10 +14,6 @@ Int read_plan(const Fleet& fleet, View<const Int, 1> numbers);
 // timed so; throws if nobody can drive one.
 void tell_routes(const ProblemData& data, Fleet& fleet, Int slots, Plan& plan);
 
-// Writes the cost of a route that serves one customer alone, (type, 2, node). A slot of the fleet
-// is scratch.
-void alone_costs(const ProblemData& data, Fleet& fleet, const View<double, 3>& alone);
-
 // Times the routes written; those that break a rule are left to be planned anew.
 void begin(const ProblemData& data, Searcher& searcher, Int num_routes);
 

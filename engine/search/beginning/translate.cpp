@@ -65,24 +65,22 @@ bool time_anew(const ProblemData& data, Fleet& fleet, Int slot) {
     return settle(data, tour);
 }
 
-}  // namespace
-
-void alone_costs(const ProblemData& data, Fleet& fleet, const View<double, 3>& alone) {
+// Prices a route for one customer alone by each type, driven and flown. A slot is scratch.
+void price_alone(const ProblemData& data, Fleet& fleet, Int node, const View<double, 3>& alone) {
     const Int slot = fleet.route.size() - 1;
-    std::fill_n(alone.data(), 2 * alone.shape(0) * data.num_nodes, infeasible);
     for (Int k = 0; k < data.num_types; ++k) {
         for (Int by_drone = 0; by_drone < 2; ++by_drone) {
-            for (Int node = data.num_depots; node < data.num_nodes; ++node) {
-                // Of a shipment, drones may serve another end.
-                const bool may_be = data.can(k, is_paired(data.pair, node) ? 0 : by_drone, node);
-                if (may_be && !is_other_end(data.pair, node) && !data.deadline.passed() &&
-                    serve_alone(data, fleet, slot, k, node, by_drone == 1)) {
-                    alone(k, by_drone, node) = fleet.cost[slot];
-                }
-            }
+            // Of a shipment, drones may serve another end.
+            const bool may_be = data.can(k, is_paired(data.pair, node) ? 0 : by_drone, node);
+            const bool is_served = may_be && !is_other_end(data.pair, node) &&
+                                   !data.deadline.passed() &&
+                                   serve_alone(data, fleet, slot, k, node, by_drone == 1);
+            alone(k, by_drone, node) = is_served ? fleet.cost[slot] : infeasible;
         }
     }
 }
+
+}  // namespace
 
 void begin(const ProblemData& data, Searcher& searcher, Int num_routes) {
     const Fleet& now = searcher.now;
@@ -166,9 +164,18 @@ extern "C" int tandem_begin(const tandem_problem_data* data, tandem_search* sear
                             const tandem_i64_1d* numbers) {
     return guarded([&] {
         const ProblemData problem = data_of(*data);
-        alone_costs(problem, search->now, search->alone);
+        std::fill_n(search->alone.data(), 2 * search->alone.shape(0) * problem.num_nodes,
+                    infeasible);
+        for (Int node = problem.num_depots; node < problem.num_nodes; ++node) {
+            price_alone(problem, search->now, node, search->alone);
+        }
         begin(problem, *search, read_plan(search->now, *numbers));
     });
+}
+
+extern "C" int tandem_price_alone(const tandem_problem_data* data, tandem_search* search,
+                                  int64_t node) {
+    return guarded([&] { price_alone(data_of(*data), search->now, node, search->alone); });
 }
 
 extern "C" int tandem_leg_cost(const tandem_problem_data* data, tandem_search* search, double* cost,
