@@ -95,8 +95,8 @@ class SlotReply(_Reply):
     by: By = Field(description="As it was asked.")
     feasible: bool = Field(description="Whether it can be kept.")
     cost: float | None = Field(
-        description="What the plan costs more, others staying with their vehicles in their order, "
-        "and `of_which_future`. Null: it can't be kept.")
+        description="What the plan costs more, as a search of some milliseconds finds in which "
+        "others may make room, and `of_which_future`. Null: it can't be kept.")
     of_which_future: float | None = Field(
         None, description="What it takes from orders to come, by the problem's `forecast`; "
         "negative where it rides along with them. Null: nothing is known of them.")

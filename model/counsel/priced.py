@@ -57,14 +57,13 @@ def legal_offers(problem: Problem, solution: Solution, nodes: Sequence[int], unt
     return found
 
 
-def slot_offers(problem: Problem, solution: Solution,
-                nodes: Sequence[int]) -> list[list[Offer]]:
-    """Return the legal places of each of some customers, the cheapest first, as if alone."""
-    prices, routes = PlacePrices(problem, solution), [*map(_OnRoute, solution.routes)]
-    return [sorted([Offer(priced.cost, place) for index in prices.routes
-                    for priced in prices.places(node, index)
-                    if (place := routes[index].place(priced.placements, (node,))) is not None],
-                   key=lambda offer: offer.cost) for node in nodes]
+def offers_of(prices: PlacePrices, solution: Solution, node: int) -> list[Offer]:
+    """Return the legal places of a customer whom a plan leaves out, the cheapest first."""
+    routes = [*map(_OnRoute, solution.routes)]
+    return sorted([Offer(priced.cost, place) for index in prices.routes
+                   for priced in prices.places(node, index)
+                   if (place := routes[index].place(priced.placements, (node,))) is not None],
+                  key=lambda offer: offer.cost)
 
 
 def is_seen_by_search(problem: Problem) -> bool:

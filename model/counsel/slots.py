@@ -1,29 +1,39 @@
 """The cheapest place of a customer under other windows of his, one after another.
 
-The search prices the places of all slots at once, on the plan as it sees it. The judge says of the
-cheapest of each whether it is legal and what it costs.
+A search of some milliseconds looks near him, others making room; where it finds nothing that the
+judge calls legal, the cheapest places between others are judged.
 """
 
 from collections import Counter
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
+from math import inf
+from typing import NamedTuple
 
-from model.counsel.bench import MOST_LEGS, Bench, Drafted
+from model.counsel.bench import MOST_LEGS, Bench, Drafted, Trial
 from model.counsel.fitting import Fit, find_fits, new_violations
-from model.counsel.priced import Offer, is_seen_by_search, slot_offers
+from model.counsel.priced import Offer, is_seen_by_search, offers_of
 from model.judge.past import Vehicle
-from model.judge.places import Place
+from model.judge.places import Place, find_place
 from model.problem import MM_PER_KM, Customer, Problem
-from model.problem.altered import with_copies, with_customers
-from model.solution import Solution
+from model.problem.altered import with_customers
+from model.problem.quantities import UNLIMITED
+from model.search.one_order import OrderSearch
+from model.solution import Route, Solution
 
 TRIED = 3
 """Places of a slot that are judged, the cheapest first, if the judge refuses the one before; and
 vehicles on whose routes it is looked why there is none."""
 
+TURNS, MOST_TURNS = 1500, 400
+"""Turns of the search for all slots together, and for one at most."""
+
+AS_CHEAP = 0.005
+"""A slot that costs at most so much more than the cheapest of all, by what the plan costs, isn't
+searched for."""
 
 ALIKE = 1e-6
-"""Money by which places of two slots differ at most that are taken to be one."""
+"""Money by which what costs the same differs at most."""
 
 
 @dataclass(frozen=True)
@@ -38,12 +48,15 @@ class SearchedPlan:
     node: int
     kinds: Sequence[int]  # types that may begin trips
     whole: Callable[[Place], Place | None]  # a place of the plan as a whole; None: there is none
+    joined: Callable[[Solution, Customer], Solution]
+    """A plan that was found for the customer as he would be, as a plan of the whole."""
 
 
 def view_of(bench: Bench) -> SearchedPlan:
     """Return how the search sees a plan of which nothing has happened."""
-    return SearchedPlan(bench.problem, bench.left_out.solution, bench.node,
-                range(len(bench.problem.vehicle_types)), lambda place: place)
+    return SearchedPlan(
+        bench.problem, bench.left_out.solution, bench.node, range(len(bench.problem.vehicle_types)),
+        lambda place: place, lambda found, _: found)
 
 
 def find_slots(bench: Bench, slots: Sequence[Customer],
@@ -60,56 +73,143 @@ def find_slots(bench: Bench, slots: Sequence[Customer],
         The plan as the search sees it; None: it isn't asked.
     """
     benches = [bench.under(with_customers(bench.problem, {bench.last: slot})) for slot in slots]
-    if view is None or bench.setting.past.had or not _is_seen(bench, view):
-        yield from [next(iter(find_fits(each, 1).places), None) for each in benches]
+    if view is None or not _is_searched(bench, view):
+        yield from map(_between, benches)
         return
-    judged = list[tuple[Offer, Fit]]()
-    for each, slot, offers in zip(benches, slots, _offers(view, slots), strict=True):
-        fit = _alike(each, view, slot, offers, judged)
-        if fit is None:
-            fit = _judged(each, view, offers)
-            judged += [(offer, fit) for offer in offers[:1] if fit is not None]
+    search = _SlotSearch(bench, view, slots)
+    for each, trial in zip(benches, search.trials(benches), strict=True):
+        fit = None if trial is None else Fit(each, trial)
+        if not search.sees_all:
+            others = _between(each)
+            fit = min([one for one in (fit, others) if one], key=lambda one: one.rank, default=None)
         yield fit or _refused(each, view)
 
 
-def _is_seen(bench: Bench, view: SearchedPlan) -> bool:
-    """Tell whether the search sees all places, and takes little time to be asked."""
+def _between(bench: Bench) -> Fit | None:
+    """Return the cheapest place between others, who stay where they are."""
+    return next(iter(find_fits(bench, 1).places), None)
+
+
+def _is_searched(bench: Bench, view: SearchedPlan) -> bool:
+    """Tell whether a search may put the customer anywhere, and takes little time to be opened."""
     problem = bench.problem
     return (bench.shipment is None and len(problem.places_of(bench.node)) == 1
-            and is_seen_by_search(view.problem) and not problem.fairness.is_stated
+            and not bench.setting.past.had
             and view.problem.num_nodes**2 * len(problem.travel) <= MOST_LEGS)
 
 
-def _offers(view: SearchedPlan, slots: Sequence[Customer]) -> list[list[Offer]]:
-    """Return the places of each slot on routes, the cheapest first, by one search for all."""
-    problem, own = view.problem, view.node
-    nodes = [own, *range(problem.num_nodes, problem.num_nodes + len(slots) - 1)]
-    many = with_copies(with_customers(problem, {own: slots[0]}), own, slots[1:])
-    solution = replace(view.solution, unassigned=(*view.solution.unassigned, *nodes[1:]))
-    return slot_offers(many, solution, nodes)
+class _Found(NamedTuple):
+    """A legal plan with the customer."""
+
+    trial: Trial
+    begins: int  # his service
+
+    @property
+    def cost(self) -> float:
+        """What it costs."""
+        return self.trial.evaluation.cost.total
+
+    def keeps(self, slot: Customer) -> bool:
+        """Tell whether it keeps a slot, too."""
+        means = "either" if self.trial.place is None else self.trial.place.by
+        return (slot.earliest <= self.begins <= slot.latest and not slot.gaps
+                and slot.served_by in ("either", means))
 
 
-def _alike(bench: Bench, view: SearchedPlan, slot: Customer, offers: Sequence[Offer],
-           judged: Sequence[tuple[Offer, Fit]]) -> Fit | None:
-    """Return the place of a slot that was judged for another, by the same times at the same cost.
+class _SlotSearch:
+    """Plans with a customer in one slot after another."""
 
-    If the truck waits for neither, and comes in time for both, it is the same route.
-    """
-    for offer, fit in judged if offers else ():
-        if (offer.place != offers[0].place or abs(offer.cost - offers[0].cost) > ALIKE
-                or fit.trial.place != view.whole(offer.place)):
-            continue
-        stop = next((stop for route in fit.trial.solution.routes for trip in route.trips
-                     for stop in trip.stops if stop.node == bench.node), None)
-        if (stop is not None and stop.service_start == stop.ready
-                and slot.gaps == () and slot.earliest <= stop.arrival
-                and stop.service_start <= slot.latest):
-            return Fit(bench, fit.trial)
-    return None
+    def __init__(self, bench: Bench, view: SearchedPlan, slots: Sequence[Customer]) -> None:
+        self._view = view
+        self._slots = slots
+        # What limits anybody is found out when the search is opened.
+        tightest = max(slots, key=lambda slot: (slot.earliest > 0, slot.latest < UNLIMITED))
+        problem = with_customers(view.problem, {
+            view.node: replace(tightest, served_by="either")})
+        self._search = OrderSearch(problem, view.solution, view.node)
+        self.sees_all = is_seen_by_search(problem) and not problem.fairness.is_stated
+        """Whether it sees each place between others."""
+        self._node, self._without = bench.node, bench.without
+        self._as_cheap = AS_CHEAP * abs(bench.without)
+        self._found = list[_Found]()
+
+    def trials(self, benches: Sequence[Bench]) -> list[Trial | None]:
+        """Return the cheapest legal plan found with each slot; None: none was.
+
+        The cheapest slots come first: what is found for them may keep others.
+        """
+        offers = [*map(self._offers, self._slots)]
+        costs = [min([self._search.ask(slot), *[offer.cost for offer in some[:1]]])
+                 for slot, some in zip(self._slots, offers, strict=True)]
+        least = min(costs) + self._as_cheap
+        turns = min(MOST_TURNS, TURNS // max(1, sum([least < cost < inf for cost in costs])))
+        for at in sorted(range(len(benches)), key=costs.__getitem__):
+            slot, between = self._slots[at], offers[at][0].cost if offers[at] else inf
+            if costs[at] > least and self._more(slot) > least:
+                self._look(benches[at], slot, turns, min(between, self._more(slot)))
+            if self.sees_all and (self._cheapest(slot) is None
+                                  or self._more(slot) > between + ALIKE):
+                self._keep(_judged(benches[at], self._view, offers[at]))
+        best = [self._cheapest(slot) for slot in self._slots]
+        return [None if each is None else each.trial for each in best]
+
+    def _look(self, bench: Bench, slot: Customer, turns: int, most: float) -> None:
+        """Search for a slot, and keep what is found that costs less than `most` more. In place."""
+        if self._search.is_read and self._search.ask(slot) < inf and (
+                self._search.improve(turns) < most - ALIKE):
+            self._keep(_trial(bench, self._view.joined(self._search.plan(), slot)))
+
+    def _keep(self, trial: Trial | None) -> None:
+        if trial is not None and trial.place is not None:
+            begins = next(visit.service_start for route in trial.solution.routes
+                          for visit in route.visits if visit.node == self._node)
+            self._found.append(_Found(trial, begins))
+
+    def _more(self, slot: Customer) -> float:
+        """Return what the cheapest plan found that keeps a slot costs more; infinite: none does."""
+        known = self._cheapest(slot)
+        return inf if known is None else known.cost - self._without
+
+    def _offers(self, slot: Customer) -> list[Offer]:
+        """Return the places of a slot on routes, the cheapest first."""
+        if not self.sees_all:
+            return []
+        self._search.ask(slot)
+        return offers_of(self._search, self._view.solution, self._view.node)
+
+    def _cheapest(self, slot: Customer) -> _Found | None:
+        """Return the cheapest plan found that keeps a slot."""
+        return min([each for each in self._found if each.keeps(slot)],
+                   key=lambda each: each.cost, default=None)
 
 
-def _judged(bench: Bench, view: SearchedPlan, offers: Sequence[Offer]) -> Fit | None:
-    """Return the best place that the judge finds legal, on a route or with a vehicle more."""
+def _trial(bench: Bench, plan: Solution) -> Trial | None:
+    """Judge a plan, whose routes are mostly those without the customer; None: it is illegal."""
+    before = bench.left_out.solution
+    if not {*plan.unassigned} <= {*before.unassigned} - {*bench.nodes}:
+        return None
+    known = {_way(route): index for index, route in enumerate(before.routes)}
+    indices = [known.get(_way(route)) for route in plan.routes]
+    routes = tuple([route if index is None else before.routes[index]
+                    for route, index in zip(plan.routes, indices, strict=True)])
+    judged = {number: bench.judged[index] for number, index in enumerate(indices)
+              if index is not None}
+    whole, found = Solution(routes, plan.unassigned), find_place(plan, bench.node)
+    trial = Trial(None if found is None else found.place, whole,
+                  bench.setting.judge(bench.problem, whole, judged))
+    return None if found is None or new_violations(bench, trial) else trial
+
+
+def _way(route: Route) -> tuple[object, ...]:
+    """Return what routes have in common that differ in times alone."""
+    return route.vehicle_type, route.vehicle, *[
+        (tuple([stop.node for stop in trip.stops]), len(trip.breaks), *[
+            (each.drone, each.launch_stop, each.recovery_stop, each.nodes)
+            for each in trip.sorties]) for trip in route.trips]
+
+
+def _judged(bench: Bench, view: SearchedPlan, offers: Sequence[Offer]) -> Trial | None:
+    """Return the plan with the best legal place between others, or with a vehicle more."""
     drafts = list[Drafted]()
     for offer in offers[:TRIED]:
         place = view.whole(offer.place)
@@ -125,7 +225,7 @@ def _judged(bench: Bench, view: SearchedPlan, offers: Sequence[Offer]) -> Fit | 
             break
         trial = bench.finish(draft)
         if not new_violations(bench, trial):
-            return Fit(bench, trial)
+            return trial
     return None
 
 

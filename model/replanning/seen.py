@@ -1,12 +1,15 @@
 """How the search sees a plan that is under way: what is left of it, as a plan of its own."""
 
 from collections import Counter
+from dataclasses import replace
 
 from model.counsel.bench import Bench
 from model.counsel.slots import SearchedPlan
 from model.judge.past import Vehicle
 from model.judge.places import Place
-from model.replanning.handover import hand_over
+from model.problem import Customer
+from model.problem.altered import with_customers
+from model.replanning.handover import hand_over, take_back
 from model.replanning.kept import Kept
 from model.replanning.replan import Replanning
 from model.solution import Solution
@@ -44,9 +47,15 @@ def seen(replanning: Replanning, bench: Bench,
         return None if vehicle is None else place._replace(
             vehicle=vehicle, trip=place.trip + _begun(kept, vehicle))
 
+    node = left.numbers[bench.node]
+
+    def joined(found: Solution, customer: Customer) -> Solution:
+        asked = replace(left, problem=with_customers(left.problem, {node: customer}))
+        return take_back(replanning.problem, replanning.past, plan, kept, asked, found)
+
     return SearchedPlan(
         left.problem, handed or hand_over(replanning.problem, plan, kept, left),
-        left.numbers[bench.node], left.beginning, whole)
+        node, left.beginning, whole, joined)
 
 
 def _begun(kept: dict[Vehicle, Kept], vehicle: Vehicle) -> int:

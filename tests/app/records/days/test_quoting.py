@@ -22,6 +22,7 @@ from tests.seeds import seeds
 
 pytestmark = pytest.mark.slow
 
+CENT = 0.01
 NEW = order("N", 1, 2)["customer"]
 SLOTS: list[Data] = [
     {"earliest": 0, "latest": 400}, {"earliest": 400, "latest": 900, "by": "truck"},
@@ -55,10 +56,21 @@ def cheapest(client: httpx.Client, problem: Data, plan: Data, slot: Data) -> flo
     return min(allowed, default=None)
 
 
+def searched(client: httpx.Client, problem: Data, plan: Data, slot: Data) -> float | None:
+    """Return what a plan by search costs more with the order in a slot; None: it is left out."""
+    window = {name: slot[name] for name in ("earliest", "latest") if name in slot}
+    new = {**NEW, "time_window": window, "served_by": slot.get("by", "either")}
+    found = client.post("/plan", json={
+        "replan": {"plan": plan, "freeze_before": 0}, **problem,
+        "customers": [*problem["customers"], new]}).json()
+    without = plan["cost"]["total"]
+    return None if found["unassigned"] else float(found["cost"]["total"] - without)
+
+
 @pytest.mark.parametrize("now", [None, 250, 700])
 @pytest.mark.parametrize("seed", seeds(9))
-def test_slot_costs_what_its_cheapest_place_does(service: httpx.Client, seed: int,
-                                                 now: float | None) -> None:
+def test_slot_costs_what_a_search_finds(service: httpx.Client, seed: int,
+                                        now: float | None) -> None:
     draw = random.Random(seed)
     plan = service.post("/plan", json={**PROBLEM, "replan": {"plan": {"routes": []}}}).json()
     problem = PROBLEM if now is None else {
@@ -68,10 +80,14 @@ def test_slot_costs_what_its_cheapest_place_does(service: httpx.Client, seed: in
     slots += [{"earliest": 150 * number, "latest": 150 * number + 1500} for number in range(6)]
     reply = service.post("/quote", json={"problem": problem, "plan": plan, "order": NEW,
                                          "slots": slots}).json()
-    costs = [cheapest(service, problem, plan, slot) for slot in slots]
-    assert [each["cost"] for each in reply["slots"]] == costs
-    assert [each["feasible"] for each in reply["slots"]] == [cost is not None for cost in costs]
+    costs = [each["cost"] for each in reply["slots"]]
+    for slot, cost in zip(slots, costs, strict=True):
+        between = cheapest(service, problem, plan, slot)
+        assert between is None or (cost is not None and cost <= between)
+        found = searched(service, problem, plan, slot)
+        assert found is None if cost is None else found is not None and found <= cost + CENT
     kept = [index for index, cost in enumerate(costs) if cost is not None]
+    assert [each["feasible"] for each in reply["slots"]] == [cost is not None for cost in costs]
     assert reply["best"] == min(kept, key=lambda index: (costs[index], index), default=None)
     assert all(each["why"] for each in reply["slots"] if not each["feasible"])
 
