@@ -8,7 +8,9 @@ import {
 import { geoJson, gpx, stopsCsv } from '../../../app/console/static/js/core/exports.js';
 import { contains, indexPlan, keysWithin, spanOf } from '../../../app/console/static/js/core/plan.js';
 import { playback } from '../../../app/console/static/js/core/playback.js';
-import { ACTIVITIES, closedOf, rowWindows, timelineRows } from '../../../app/console/static/js/core/timeline.js';
+import {
+  ACTIVITIES, closedOf, rowWindows, tickStep, timelineRows,
+} from '../../../app/console/static/js/core/timeline.js';
 
 const REQUEST = {
   depots: [{ id: 'hub', location: [0, 0] }],
@@ -280,4 +282,10 @@ test('a row is dark while all depots that its vehicle may use are closed, in bet
   const closed = (type) => closedOf({ type }, { depots }, [0, 1000]);
   assert.deepEqual(closed({ reload_depots: ['yard'] }), [[0, 100], [300, 600], [900, 1000]]);
   assert.deepEqual(closed({ depot: 'hub', reload_depots: ['hub', 'other'] }), []);
+});
+
+test('a time axis has a step of at least a minute, also where there is no room for it', () => {
+  assert.equal(tickStep(3600, 10), 600);
+  assert.equal(tickStep(30 * 86400, 10), 3 * 86400);
+  for (const room of [-2, 0, 0.5]) assert.equal(tickStep(3600, room), 3600);
 });

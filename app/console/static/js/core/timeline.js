@@ -176,5 +176,6 @@ export function rowWindows(row) {
 /** Return a step between marks on a time axis, so that no more than `most` fit into `seconds`. */
 export function tickStep(seconds, most) {
   const steps = [60, 120, 300, 600, 900, 1800, 3600, 7200, 10800, 14400, 21600, 43200, 86400];
-  return steps.find((step) => seconds / step <= most) ?? Math.ceil(seconds / most / 86400) * 86400;
+  const room = Math.max(most, 1); // a hidden timeline has none
+  return steps.find((step) => seconds / step <= room) ?? Math.ceil(seconds / room / 86400) * 86400;
 }
