@@ -25,8 +25,8 @@ TRIED = 3
 """Places of a slot that are judged, the cheapest first, if the judge refuses the one before; and
 vehicles on whose routes it is looked why there is none."""
 
-TURNS, MOST_TURNS = 1500, 400
-"""Turns of the search for all slots together, and for one at most."""
+TURNS, MOST_TURNS = 1000, 400
+"""Turns of the search for all slots together, more for dearer ones, and for one at most."""
 
 AS_CHEAP = 0.005
 """A slot that costs at most so much more than the cheapest of all, by what the plan costs, isn't
@@ -138,25 +138,37 @@ class _SlotSearch:
 
         The cheapest slots come first: what is found for them may keep others.
         """
-        offers = [*map(self._offers, self._slots)]
-        costs = [min([self._search.ask(slot), *[offer.cost for offer in some[:1]]])
-                 for slot, some in zip(self._slots, offers, strict=True)]
+        asked = [self._asked(slot) for slot in self._slots]
+        costs = [cost for cost, _ in asked]
         least = min(costs) + self._as_cheap
-        turns = min(MOST_TURNS, TURNS // max(1, sum([least < cost < inf for cost in costs])))
+        dearer = sum([cost - least for cost in costs if least < cost < inf])
         for at in sorted(range(len(benches)), key=costs.__getitem__):
-            slot, between = self._slots[at], offers[at][0].cost if offers[at] else inf
-            if costs[at] > least and self._more(slot) > least:
-                self._look(benches[at], slot, turns, min(between, self._more(slot)))
+            slot, (cost, offers) = self._slots[at], asked[at]
+            between = offers[0].cost if offers else inf
+            if cost < inf and self._more(slot) > least:
+                share = max(0.0, cost - least) / dearer if cost > least else 0.0
+                self._look(benches[at], slot, min(MOST_TURNS, int(TURNS * share)), between)
             if self.sees_all and (self._cheapest(slot) is None
                                   or self._more(slot) > between + ALIKE):
-                self._keep(_judged(benches[at], self._view, offers[at]))
+                self._keep(_judged(benches[at], self._view, offers))
         best = [self._cheapest(slot) for slot in self._slots]
         return [None if each is None else each.trial for each in best]
 
-    def _look(self, bench: Bench, slot: Customer, turns: int, most: float) -> None:
-        """Search for a slot, and keep what is found that costs less than `most` more. In place."""
-        if self._search.is_read and self._search.ask(slot) < inf and (
-                self._search.improve(turns) < most - ALIKE):
+    def _asked(self, slot: Customer) -> tuple[float, list[Offer]]:
+        """Return what a slot costs more at once, and its places on routes, the cheapest first."""
+        cost = self._search.ask(slot)
+        offers = offers_of(self._search, self._view.solution, self._view.node
+                           ) if self.sees_all else []
+        return min([cost, *[offer.cost for offer in offers[:1]]]), offers
+
+    def _look(self, bench: Bench, slot: Customer, turns: int, between: float) -> None:
+        """Search for a slot, and keep what is found if nothing known costs less. In place."""
+        if not self._search.is_read:
+            return
+        more = self._search.ask(slot)
+        if turns and more < inf:
+            more = self._search.improve(turns)
+        if more < self._more(slot) - ALIKE and more <= between + ALIKE:
             self._keep(_trial(bench, self._view.joined(self._search.plan(), slot)))
 
     def _keep(self, trial: Trial | None) -> None:
@@ -169,13 +181,6 @@ class _SlotSearch:
         """Return what the cheapest plan found that keeps a slot costs more; infinite: none does."""
         known = self._cheapest(slot)
         return inf if known is None else known.cost - self._without
-
-    def _offers(self, slot: Customer) -> list[Offer]:
-        """Return the places of a slot on routes, the cheapest first."""
-        if not self.sees_all:
-            return []
-        self._search.ask(slot)
-        return offers_of(self._search, self._view.solution, self._view.node)
 
     def _cheapest(self, slot: Customer) -> _Found | None:
         """Return the cheapest plan found that keeps a slot."""

@@ -50,7 +50,9 @@ def seen(replanning: Replanning, bench: Bench,
     node = left.numbers[bench.node]
 
     def joined(found: Solution, customer: Customer) -> Solution:
-        asked = replace(left, problem=with_customers(left.problem, {node: customer}))
+        asked = left
+        if any(worker.is_under_way for worker in left.workers.values()):
+            asked = replace(left, problem=with_customers(left.problem, {node: customer}))
         return take_back(replanning.problem, replanning.past, plan, kept, asked, found)
 
     return SearchedPlan(

@@ -18,7 +18,7 @@ from model.engine.plans import told
 from model.problem import Customer, Problem
 from model.search.priced_places import PlacePrices
 from model.search.route.engine import ANY, BY_FAR, LONGEST_STRING, anneal, leg_cost
-from model.search.sharing import make_rooms, take_all
+from model.search.sharing import make_rooms
 from model.search.temperature import COLD
 from model.solution import Route, Solution, renumbered
 
@@ -77,7 +77,7 @@ class OrderSearch(PlacePrices):
         can[:len(driven), 0] = self._can[:len(driven), 0] & driven
         room = self._room
         call("tandem_price_alone", self._given, room, self._number)
-        take_all(self.laid, self.searcher, room)
+        call("tandem_take_all", self._given, self.searcher, room)
         room.rng[:], room.absences[:] = self._seed, 0
         return self._gone_on(1, BY_FAR)
 
