@@ -58,7 +58,8 @@ def answer_quote(body: ReceivedBody, bounds: Bounds,
         future = task.waves.future_costs(task.judged_problem, task.replanning, bench.node,
                                          customers)
     slots = [_quoted(bench, slot, best, more) for slot, best, more in zip(
-        request.slots, find_slots(bench, customers, view), future, strict=True)]
+        request.slots, find_slots(bench, customers, view, request.search), future,
+        strict=True)]
     costs = [(each["cost"], index) for index, each in enumerate(slots) if each["feasible"]]
     reply: Data = {"slots": slots, "best": min(costs)[1] if costs else None}
     task.telling.tell(QuoteReply, reply)

@@ -47,6 +47,9 @@ class OrderAsked(Input):
     shipment: ShipmentInput | None = Field(
         None, description="A shipment instead; slots are of its delivery.")
     slots: Slots = Field(description="Of which each is priced.")
+    search: bool = Field(
+        True, description="Whether others may make room, as a search of some milliseconds finds. "
+        "Else each slot costs what its cheapest place does, told in a third of the time.")
 
     @model_validator(mode="after")
     def _is_one(self) -> Self:
@@ -95,8 +98,8 @@ class SlotReply(_Reply):
     by: By = Field(description="As it was asked.")
     feasible: bool = Field(description="Whether it can be kept.")
     cost: float | None = Field(
-        description="What the plan costs more, as a search of some milliseconds finds in which "
-        "others may make room, and `of_which_future`. Null: it can't be kept.")
+        description="What the plan costs more, by the best plan that was found with it, "
+        "and `of_which_future`. Null: it can't be kept.")
     of_which_future: float | None = Field(
         None, description="What it takes from orders to come, by the problem's `forecast`; "
         "negative where it rides along with them. Null: nothing is known of them.")

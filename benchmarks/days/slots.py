@@ -59,7 +59,7 @@ def planned(stated: Data, seconds: float) -> Data:
     return dict(from_json(service.plan(ReceivedBody(to_json(asked), time.perf_counter()))))
 
 
-def asked_for(stated: Data, plan: Data, seed: int) -> Data:
+def asked_for(stated: Data, plan: Data, seed: int, search: bool = True) -> Data:
     """Return a request of a quote for an order by chance."""
     rng = random.Random(f"slots {seed}")
     more = {key: value for key, value in order(rng, "more").items() if key != "time_window"}
@@ -68,7 +68,7 @@ def asked_for(stated: Data, plan: Data, seed: int) -> Data:
              for start in starts]
     given = {"routes": plan["routes"], "unassigned": plan["unassigned"]}
     return {"problem": {**stated, "replan": {"plan": given, "freeze_before": 0}}, "plan": given,
-            "order": more, "slots": slots}
+            "order": more, "slots": slots, "search": search}
 
 
 def quoted(bodies: Sequence[bytes]) -> list[tuple[float, float, bytes]]:
@@ -102,10 +102,12 @@ def main() -> None:
     parser.add_argument("--processes", type=int, default=2)
     parser.add_argument("--searched", type=int, default=0, help="slots that are searched, too")
     parser.add_argument("--seconds", type=float, default=30.0, help="of search for the plan")
+    parser.add_argument("--unsearched", action="store_true", help="others don't make room")
     options = parser.parse_args()
     stated = problem(random.Random(0), options.orders)
     plan = planned(stated, options.seconds)
-    requests = [asked_for(stated, plan, seed) for seed in range(options.quotes)]
+    requests = [asked_for(stated, plan, seed, not options.unsearched)
+                for seed in range(options.quotes)]
     bodies = [to_json(each) for each in requests]
     alone = quoted(bodies[:max(20, options.quotes // 10)])
     with ProcessPoolExecutor(options.processes) as pool:

@@ -60,7 +60,7 @@ def view_of(bench: Bench) -> SearchedPlan:
 
 
 def find_slots(bench: Bench, slots: Sequence[Customer],
-               view: SearchedPlan | None) -> Iterator[Fit | None]:
+               view: SearchedPlan | None, searches: bool = True) -> Iterator[Fit | None]:
     """Yield the cheapest place of each slot, as `find_fits` does; None: there is no vehicle.
 
     Parameters
@@ -71,13 +71,16 @@ def find_slots(bench: Bench, slots: Sequence[Customer],
         The customer as he would be; of a shipment its delivery.
     view
         The plan as the search sees it; None: it isn't asked.
+    searches
+        Whether others may make room.
     """
     benches = [bench.under(with_customers(bench.problem, {bench.last: slot})) for slot in slots]
     if view is None or not _is_searched(bench, view):
         yield from map(_between, benches)
         return
     search = _SlotSearch(bench, view, slots)
-    for each, trial in zip(benches, search.trials(benches), strict=True):
+    trials = search.trials(benches, TURNS if searches else 0)
+    for each, trial in zip(benches, trials, strict=True):
         fit = None if trial is None else Fit(each, trial)
         if not search.sees_all:
             others = _between(each)
@@ -133,8 +136,8 @@ class _SlotSearch:
         self._as_cheap = AS_CHEAP * abs(bench.without)
         self._found = list[_Found]()
 
-    def trials(self, benches: Sequence[Bench]) -> list[Trial | None]:
-        """Return the cheapest legal plan found with each slot; None: none was.
+    def trials(self, benches: Sequence[Bench], turns: int) -> list[Trial | None]:
+        """Return the cheapest legal plan found with each slot in some turns; None: none was.
 
         The cheapest slots come first: what is found for them may keep others.
         """
@@ -147,7 +150,7 @@ class _SlotSearch:
             between = offers[0].cost if offers else inf
             if cost < inf and self._more(slot) > least:
                 share = max(0.0, cost - least) / dearer if cost > least else 0.0
-                self._look(benches[at], slot, min(MOST_TURNS, int(TURNS * share)), between)
+                self._look(benches[at], slot, min(MOST_TURNS, int(turns * share)), between)
             if self.sees_all and (self._cheapest(slot) is None
                                   or self._more(slot) > between + ALIKE):
                 self._keep(_judged(benches[at], self._view, offers))

@@ -81,8 +81,11 @@ def test_slot_costs_what_a_search_finds(service: httpx.Client, seed: int,
     reply = service.post("/quote", json={"problem": problem, "plan": plan, "order": NEW,
                                          "slots": slots}).json()
     costs = [each["cost"] for each in reply["slots"]]
-    for slot, cost in zip(slots, costs, strict=True):
+    unsearched = service.post("/quote", json={"problem": problem, "plan": plan, "order": NEW,
+                                              "slots": slots, "search": False}).json()["slots"]
+    for slot, cost, each in zip(slots, costs, unsearched, strict=True):
         between = cheapest(service, problem, plan, slot)
+        assert each["cost"] == between
         assert between is None or (cost is not None and cost <= between)
         found = searched(service, problem, plan, slot)
         assert found is None if cost is None else found is not None and found <= cost + CENT
