@@ -149,7 +149,7 @@ class _SlotSearch:
             slot, (cost, offers) = self._slots[at], asked[at]
             between = offers[0].cost if offers else inf
             if cost < inf and self._more(slot) > least:
-                share = max(0.0, cost - least) / dearer if cost > least else 0.0
+                share = max(0.0, cost - least) / dearer if dearer else 0.0
                 self._look(benches[at], slot, min(MOST_TURNS, int(turns * share)), between)
             if self.sees_all and (self._cheapest(slot) is None
                                   or self._more(slot) > between + ALIKE):

@@ -253,6 +253,7 @@ def _pack_gaps(rows: Records, customers: Sequence[Customer]) -> None:
 
 
 def customer_row(customer: Customer) -> tuple[Any, ...]:
+    """Return what `tandem_node` holds of a customer, in its order; times in ms."""
     limit = customer.latest if customer.late_cost_per_hour is None else FAR
     return (customer.earliest, limit, customer.service_duration, customer.release_time,
             customer.latest, padded(customer.demand, DIMENSIONS_PER_TIER))

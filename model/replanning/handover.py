@@ -20,7 +20,7 @@ from model.replanning.kept import Kept
 from model.replanning.relations import in_relation
 from model.replanning.remainder import Remainder
 from model.replanning.spans import awaiting, out_of_turn
-from model.solution import Route, Solution, Stop, Trip
+from model.solution import Route, Solution, Trip
 
 
 def hand_over(problem: Problem, plan: Solution, kept: Mapping[Vehicle, Kept],
@@ -219,8 +219,7 @@ def _begun_at_once(problem: Problem, route: Route) -> Trip:
 
 def _whole(trip: Trip, nodes: Sequence[int], drones: Sequence[int], offset: int = 0) -> Trip:
     """Return a trip with other nodes and drones, its sorties at stops `offset` later."""
-    stops = tuple([Stop(nodes[stop.node], stop.arrival, stop.service_start, stop.departure,
-                        stop.setup, stop.is_launch_site) for stop in trip.stops])
+    stops = tuple([stop.at(nodes[stop.node]) for stop in trip.stops])
     sorties = tuple(
         replace(sortie, drone=drones[sortie.drone], launch_stop=sortie.launch_stop + offset,
                 recovery_stop=sortie.recovery_stop + offset,

@@ -51,6 +51,7 @@ def seen(replanning: Replanning, bench: Bench,
 
     def joined(found: Solution, customer: Customer) -> Solution:
         asked = left
+        # Of trips that are yet to begin, the times found stand.
         if any(worker.is_under_way for worker in left.workers.values()):
             asked = replace(left, problem=with_customers(left.problem, {node: customer}))
         return take_back(replanning.problem, replanning.past, plan, kept, asked, found)

@@ -13,7 +13,6 @@ import numpy as np
 
 from model.engine.instance import customer_row
 from model.engine.library import call
-from model.engine.packing import packed
 from model.engine.plans import told
 from model.problem import Customer, Problem
 from model.search.priced_places import PlacePrices
@@ -58,7 +57,6 @@ class OrderSearch(PlacePrices):
         self._temperature = COLD * leg_cost(self.laid, self.searcher)[0]
         self._can = self.laid.can[:, :, self._number].copy()
         self._flies = np.array([kind.flies for kind in problem.vehicle_types])
-        self._given = packed(self.laid)
 
     def ask(self, customer: Customer) -> float:
         """Put the order into the plan with the window, and the means, of a customer. In place.
@@ -76,8 +74,8 @@ class OrderSearch(PlacePrices):
         driven = np.where(self._flies, by_drone, by_truck)
         can[:len(driven), 0] = self._can[:len(driven), 0] & driven
         room = self._room
-        call("tandem_price_alone", self._given, room, self._number)
-        call("tandem_take_all", self._given, self.searcher, room)
+        call("tandem_price_alone", self._data, room, self._number)
+        call("tandem_take_all", self._data, self.searcher, room)
         room.rng[:], room.absences[:] = self._seed, 0
         return self._gone_on(1, BY_FAR)
 
@@ -92,7 +90,7 @@ class OrderSearch(PlacePrices):
     def _gone_on(self, turns: int, order: int) -> float:
         """Return what the order costs more after some turns; infinite if it is left out."""
         room = self._room
-        anneal(self._given, room, turns, order)
+        anneal(self._data, room, turns, order)
         if self._number in room.best_missing[:room.count.best_missing]:
             return math.inf
         return float(room.value.best) - self._without
@@ -102,7 +100,7 @@ class OrderSearch(PlacePrices):
         before = self._solution.routes
         routes: dict[int, Route] = dict(enumerate(before))
         changed = {route.vehicle: route for route in told(
-            "tandem_tell_changed", self._given, self._room, self.searcher)}
+            "tandem_tell_changed", self._data, self._room, self.searcher)}
         for slot, route in changed.items():
             is_same = slot < len(before) and before[slot].vehicle_type == route.vehicle_type
             routes[slot] = replace(route, vehicle=before[slot].vehicle if is_same else NEW)

@@ -32,7 +32,7 @@ def plan_without(problem: Problem, node: int) -> Solution:
     return improve(barred, pack([barred], False), nothing, SearchConfig(1, turns=300)).solution
 
 
-def slots_of(problem: Problem, customer: Customer) -> list[Customer]:
+def slots_of(customer: Customer) -> list[Customer]:
     """Return a customer in his window by anybody, and in either half of it by one means."""
     latest = min(customer.latest, customer.earliest + LONG)
     middle = (customer.earliest + latest) // 2
@@ -49,7 +49,7 @@ def test_order_is_put_where_the_judge_finds_it_legal_at_that_cost(variant: str) 
         rng = np.random.default_rng(seed)
         problem = generate(rng, 20, variant)
         node = int(rng.integers(problem.num_depots, problem.num_nodes))
-        slots = slots_of(problem, problem.customer_at(node))
+        slots = slots_of(problem.customer_at(node))
         # Of a window that opens at once, the search need not know that others don't.
         problem = with_customers(problem, {node: replace(slots[-1], served_by="either")})
         plan = plan_without(problem, node)
