@@ -2,6 +2,7 @@
 
 It is asked of `POST /quote`, in the plan without the order: once in its window, once in one that
 ends sooner by as much as it may be later than planned. What the second costs more is the remedy's.
+Its events move nobody else, so others don't make room in the quotes either.
 """
 
 from collections.abc import Callable, Iterable, Iterator, Mapping
@@ -53,7 +54,7 @@ def remedy_of(order: str, wanted: Mapping[str, Any], reply: Mapping[str, Any], n
                                        if each["id"] != order]}
     try:
         quoted = from_json(quote(to_json({
-            "problem": problem, "plan": {"routes": routes}, "order": stated,
+            "problem": problem, "plan": {"routes": routes}, "order": stated, "search": False,
             "slots": [{"earliest": earliest, "latest": end} for end in (sooner, latest)]})))
     except RequestError:
         return None
