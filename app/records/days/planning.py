@@ -1,16 +1,18 @@
 """How a day stands -> the request of its next plan."""
 
 import re
-from collections.abc import Collection, Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from typing import Any
 
 from app.records.days.fold import Data, ToldDay, visits
 from app.records.days.news import served_orders
 from app.records.days.pins import pinned
-from app.records.days.rows import Begun
+from app.records.days.rows import Begun, LoggedEvent
 from app.records.days.sighting import late_by_position
 from app.records.days.spreads import risk_of
+from app.records.days.store import BY_SERVICE
 from app.records.dispatches.going_on import OnTheRoad, going_on
+from app.records.dispatches.rows import PLAN_SEEN
 from app.records.dispatches.schemas import StepReply
 from app.records.dispatches.steps import stop_ids
 from app.schemas.errors import InputError
@@ -88,6 +90,15 @@ def asked(begun: Begun, told: ToldDay, plan: PlanInput | None,
         return request
     return pinned(request, told, given or PlanInput.model_validate(replan["plan"], strict=False),
                   now, {} if plan is None else served_orders(plan, told))
+
+
+def waited_for(log: Iterable[LoggedEvent], planned: int, now: int) -> float:
+    """Return for how many seconds an event that a plan is to count with has waited, at most.
+
+    `planned` is the number of the last that one counts with, `now` in milliseconds since 1970.
+    """
+    return max([(now - event.received_at) / 1000 for event in log if event.number > planned
+                and event.origin != BY_SERVICE and event.kind != PLAN_SEEN], default=0.0)
 
 
 def _search_time(within: float, beside: float, orders: int) -> float:

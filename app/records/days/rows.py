@@ -48,6 +48,7 @@ class LoggedEvent:
     outcome: EventKind | None
     reason: str | None
     body: str | None
+    received_at: int = 0
 
     @cached_property
     def about(self) -> dict[str, Any]:

@@ -22,7 +22,7 @@ from app.records.days.departures import Departures
 from app.records.days.fold import ToldDay
 from app.records.days.memory import DayMemory
 from app.records.days.news import names_of, news_of
-from app.records.days.planning import asked, too_late
+from app.records.days.planning import asked, too_late, waited_for
 from app.records.days.remedies import Quote, remedy_of
 from app.records.days.rows import Begun
 from app.records.days.sighting import are_in_time
@@ -208,14 +208,15 @@ class DayRunner:
     def _make(self, day: DayRow) -> None:
         began = time.monotonic()
         begun = self.memory.begun(self._store, day.id)
-        until = time.monotonic() + MENDING * begun.terms.plan_within
         log, told = self.memory.stood(self._store, day, begun)
+        waited = waited_for(log, day.planned, now_ms())
+        until = began + MENDING * begun.terms.plan_within - waited
         before = self.memory.plan(self._store, day)
         if before and not day.failure and are_in_time(begun, told, before, log, day.planned):
             self._store.keep_plan(day, self._by)
             return
         now = max(0.0, day.seconds(now_of(told)))
-        wanted, reply = self._replied(day, begun, told, before, now)
+        wanted, reply = self._replied(day, begun, told, before, now, waited)
         if self._stopping.is_set():
             return
         plan = parse_plan(reply)
@@ -243,12 +244,12 @@ class DayRunner:
                 self._announce(connection, name, webhook)
 
     def _replied(self, day: DayRow, begun: Begun, told: ToldDay, before: PlanInput | None,
-                 now: float) -> tuple[bytes, bytes]:
-        """Return what is asked for a day's next plan, and the reply."""
+                 now: float, waited: float) -> tuple[bytes, bytes]:
+        """Return what is asked for a day's next plan, told of which was seconds ago; the reply."""
         steps = self._dispatches.steps_by_vehicle(day.id)
         kept: set[str] = set()
         orders = 0 if before is None else len(told.customers) + len(told.shipments)
-        beside = self._beside.get(day.id, BESIDE * orders)
+        beside = self._beside.get(day.id, BESIDE * orders) + waited
         while True:
             wanted = asked(begun, told, before, steps, now, day.planned, kept, beside)
             body = to_json(wanted)
