@@ -21,8 +21,9 @@ from app.requests.bounds import UNBOUNDED
 from app.requests.reading import read_request
 from app.schemas.errors import RequestError
 from app.serving.settings import Settings
+from tests.seeds import often
 
-SIZE = 8 * 2**20
+SIZE = often(8 * 2**20)
 
 Endless = tuple[bytes, bytes, bytes]
 """How a body begins, what it repeats, and how it ends; `%d` in what it repeats is counted up."""
