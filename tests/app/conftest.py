@@ -29,7 +29,10 @@ from model.planner import (
 )
 from model.problem import Problem, VehicleType
 from model.solution import Route, Solution
+from tests.app.postgres import fragile_postgres, postgres, settings
 from tests.conftest import PATIENCE, end, eventually
+
+__all__ = ["fragile_postgres", "postgres", "settings"]
 
 APP_DIR = Path(__file__).parents[2] / "app"
 

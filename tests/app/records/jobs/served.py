@@ -53,7 +53,7 @@ class Served:
         stated = {f"TANDEM_{name.upper()}": str(value) for name, value in settings.items()}
         self._environment = {**os.environ, "TANDEM_ROLE": "all", **stated}
         self.client = httpx.Client(base_url=f"http://127.0.0.1:{self.port}", timeout=PATIENCE,
-                                   trust_env=False)
+                                   trust_env=False, verify=False)
         self.process: BaseProcess | None = None
 
     def start(self) -> None:

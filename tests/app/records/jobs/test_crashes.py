@@ -11,7 +11,7 @@ import pytest
 from sqlalchemy import create_engine, text
 
 from app.serving.settings import Settings
-from tests.app.records.jobs.conftest import Postgres
+from tests.app.postgres import Postgres
 from tests.app.records.jobs.served import Served, halfway, stepping, truly
 from tests.app.records.jobs.stepping import NUM_CUSTOMERS, ended, read, request_of, submit
 from tests.conftest import eventually
@@ -136,12 +136,12 @@ def test_process_that_is_asked_to_end_hands_its_jobs_to_another(
             assert (after["state"], after["cost"] <= before["cost"]) == ("running", True)
 
 
-def test_outage_of_postgresql_loses_nothing(postgres: Postgres, tmp_path: Path) -> None:
-    url = postgres.create("outage")
+def test_outage_of_postgresql_loses_nothing(fragile_postgres: Postgres, tmp_path: Path) -> None:
+    url = fragile_postgres.create("outage")
     with served(tmp_path, database_url=url, data_dir=tmp_path, drain_seconds=0) as process:
         jobs = [submit(process.client, request_of(seconds)) for seconds in (3.0, 8.0, 0.5)]
         before = progressing(process.client, jobs[0])
-        postgres.stop()
+        fragile_postgres.stop()
         try:
             refused = process.client.post("/jobs", json=request_of(1.0))
             assert refused.status_code == 503
@@ -149,7 +149,7 @@ def test_outage_of_postgresql_loses_nothing(postgres: Postgres, tmp_path: Path) 
             plan = process.client.post("/plan", json=request_of(0))
             assert plan.status_code == 200
         finally:
-            postgres.start()
+            fragile_postgres.start()
         eventually(lambda: process.client.get("/jobs").status_code == 200)
         assert read(process.client, jobs[0])["cost"] <= before["cost"]
         for job in jobs:

@@ -5,14 +5,15 @@ from collections.abc import Iterator
 
 import httpx
 import pytest
+from pydantic import SecretStr
 
-from app.serving.settings import Settings
+from tests.app.postgres import settings_of
 from tests.app.records.jobs.conftest import serving
 from tests.app.records.jobs.stepping import ended, request_of, submit
 
 pytestmark = pytest.mark.slow
 
-SECRET = "whsec_MDEyMzQ1Njc4OTAxMjM0NTY3ODkwMTIzNDU2Nzg5MDE="
+SECRET = SecretStr("whsec_MDEyMzQ1Njc4OTAxMjM0NTY3ODkwMTIzNDU2Nzg5MDE=")
 NOBODY = "00000000-0000-4000-8000-000000000000"
 
 IDS = ("%00", "a%00b", NOBODY[:-1] + "%00", "%FF", "%ED%A0%80", "%F0%9F%9A%9A", "x" * 36,
@@ -31,15 +32,13 @@ WEBHOOKS = ("http://example.org/\0", "http://exa\0mple.org/", "http://example.or
             "http://" + "a" * 300 + ".org/", "http://\ud7ff\ufffe.org/", "http://..org/")
 
 
-@pytest.fixture
-def service(settings: Settings) -> Iterator[httpx.Client]:
+@pytest.fixture(scope="module", params=["sqlite", "postgresql"])
+def service(request: pytest.FixtureRequest,
+            tmp_path_factory: pytest.TempPathFactory) -> Iterator[httpx.Client]:
     """Return a client of a service on either database, with webhooks."""
-    with serving(settings.model_copy(update={"webhook_secret": _secret()})) as client:
+    settings = settings_of(request, tmp_path_factory.mktemp("odd"))
+    with serving(settings.model_copy(update={"webhook_secret": SECRET})) as client:
         yield client
-
-
-def _secret() -> object:
-    return Settings(webhook_secret=SECRET).webhook_secret
 
 
 def test_whatever_is_no_id_cursor_or_parameter_is_refused(service: httpx.Client) -> None:

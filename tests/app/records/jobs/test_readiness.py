@@ -14,7 +14,7 @@ from app.database.migrations.version import VERSION_TABLE
 from app.serving.access.keys import KeyStore
 from app.serving.settings import Settings
 from tests.app.conftest import opened
-from tests.app.records.jobs.conftest import Postgres
+from tests.app.postgres import Postgres
 from tests.app.records.jobs.stepping import SteppingPlanner, request_of
 from tests.conftest import eventually, free_port
 
@@ -52,9 +52,10 @@ def test_service_without_its_database_is_ready_for_plans(serve: Serve, tmp_path:
 
 
 def test_keys_are_read_as_soon_as_the_database_comes(
-        serve: Serve, tmp_path: Path, postgres: Postgres) -> None:
-    settings = Settings(data_dir=tmp_path, database_url=postgres.create("late"), access="keys")
-    postgres.stop()
+        serve: Serve, tmp_path: Path, fragile_postgres: Postgres) -> None:
+    url = fragile_postgres.create("late")
+    settings = Settings(data_dir=tmp_path, database_url=url, access="keys")
+    fragile_postgres.stop()
     try:
         client = serve(SteppingPlanner(), settings)
         detail = eventually(lambda: client.get("/health/ready").json()["detail"].count(
@@ -67,7 +68,7 @@ def test_keys_are_read_as_soon_as_the_database_comes(
         assert "can't be reached" in refused.json()["detail"]
         assert client.get("/health/live").status_code == 200
     finally:
-        postgres.start()
+        fragile_postgres.start()
     eventually(lambda: client.get("/health/ready").status_code == 200)
     with opened(settings) as engine:
         key = {"X-API-Key": KeyStore(engine).create("ann", ["plan", "jobs"])}

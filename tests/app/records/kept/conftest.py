@@ -12,9 +12,8 @@ import pytest
 from app.database.connections import make_engine
 from app.serving.access.keys import KeyStore
 from app.serving.settings import Settings
-from tests.app.records.jobs.conftest import postgres, serving
-
-__all__ = ["postgres"]
+from tests.app.postgres import settings_of
+from tests.app.records.jobs.conftest import serving
 
 REQUEST = {"depots": [{"id": "hub", "location": [0, 0]}],
            "customers": [{"id": "A", "location": [3000, 4000], "demand": [10], "half done": True}],
@@ -68,11 +67,8 @@ class Service:
 def service(request: pytest.FixtureRequest,
             tmp_path_factory: pytest.TempPathFactory) -> Iterator[Service]:
     """Return a service that demands keys, of which Ann's and Ben's may plan."""
-    url = None
-    if request.param == "postgresql":
-        url = request.getfixturevalue("postgres").create("kept")
-    settings = Settings(data_dir=tmp_path_factory.mktemp("kept"), database_url=url, role="api",
-                        access="keys", drain_seconds=0)
+    settings = settings_of(request, tmp_path_factory.mktemp("kept")).model_copy(
+        update={"role": "api", "access": "keys", "drain_seconds": 0})
     engine = make_engine(settings.database)
     store = KeyStore(engine)
     keys = {"ann": store.create("ann", ["plan"]), "ben": store.create("ben", ["plan"]),
