@@ -16,7 +16,7 @@ from model.policy.rolling import (
 )
 from training.export import WEIGHTS, Encoder, Step, example_inputs, export
 from tests.conftest import made_once
-from training.policies import POLICIES
+from training.policies import POLICIES, AnyPolicy
 from training.widen import main as widen
 
 pytestmark = pytest.mark.slow
@@ -71,20 +71,21 @@ def test_weights_committed_for_training_are_those_of_the_graphs(name: str) -> No
     compare(name, folder, (9, 2, 3, 7))
 
 
-@pytest.mark.parametrize("exported", ["pointer"], indirect=True)
-def test_a_policy_that_is_widened_plans_as_before(exported: tuple[str, Path],
-                                                  tmp_path: Path) -> None:
-    name, folder = exported
-    weights = torch.load(folder / WEIGHTS, weights_only=True)
-    column = "node_convolution.weight"
-    (tmp_path / name).mkdir()
-    (tmp_path / name / "card.json").write_text('{"policy": "pointer"}')
-    torch.save({**weights, column: weights[column][:, :-1]}, tmp_path / name / WEIGHTS)
-    widen(name, tmp_path)
-    compare(name, tmp_path / name, (9, 2, 3, 7))
-    found = torch.load(tmp_path / name / WEIGHTS, weights_only=True)
-    assert torch.equal(found[column][:, :-1], weights[column][:, :-1])
+def test_a_policy_that_is_widened_is_exported_with_nothing_for_what_is_new(
+        tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    exported: list[tuple[AnyPolicy, Path, dict[str, Any]]] = []
+    monkeypatch.setattr("training.widen.export", lambda *given: exported.append(given))
+    weights, column = POLICIES["pointer"]().state_dict(), "node_convolution.weight"
+    (tmp_path / "old").mkdir()
+    (tmp_path / "old" / "card.json").write_text('{"policy": "pointer"}')
+    torch.save({**weights, column: weights[column][:, :-1]}, tmp_path / "old" / WEIGHTS)
+    widen("old", tmp_path)
+    (policy, folder, card), = exported
+    assert (folder, card) == (tmp_path / "old", {"policy": "pointer"})
+    found = policy.state_dict()
     assert not found[column][:, -1].any()
+    weights[column][:, -1] = 0
+    assert all(torch.equal(found[name], weight) for name, weight in weights.items())
 
 
 @pytest.mark.parametrize(("nodes", "types", "candidates"), [(2, 1, 1), (21, 4, 30), (301, 2, 170)])
