@@ -1,4 +1,5 @@
-"""The console's modules as two files, which a page asks for in place of nearly two hundred.
+"""The console's modules as two files, which a page asks for in place of nearly two hundred, and its
+style sheets as one.
 
 To ask for a module costs a browser a millisecond or two, even where it has kept it: that was half
 of the processor's time in which a page opens.
@@ -15,6 +16,12 @@ ENTRY = "js/main.js"
 
 BUNDLE, LATER = "console.js", "later.js"
 """What a page begins with, and what is fetched once something of it is needed."""
+
+STYLES = ("base", "layout", "widgets", "import", "map", "hands", "live", "print")
+"""Style sheets in their order."""
+
+STYLE = "css/console.css"
+"""All of them: browsers fetch six files at once, and others a round trip later."""
 
 IMPORT = re.compile(r"^import (?:\* as (\w+)|\{([^{}]*)\}) from '([^']+)';$", re.MULTILINE)
 PASSED_ON = re.compile(r"^export \{([^{}]*)\} from '([^']+)';$", re.MULTILINE)
@@ -82,6 +89,17 @@ def bundled(files: Mapping[str, str]) -> dict[str, str]:
     first = _imported(ENTRY, modules)
     return {BUNDLE: FIRST % (_functions(modules, first), FOLDER, LATER, ENTRY),
             LATER: REST % (BUNDLE, _functions(modules, modules.keys() - first))}
+
+
+def styled(files: Mapping[str, str]) -> str:
+    """Return the style sheets as one.
+
+    Parameters
+    ----------
+    files
+        Style sheets by their paths below the console's folder.
+    """
+    return "\n".join(files[f"css/{name}.css"] for name in STYLES)
 
 
 def _imported(entry: str, modules: Mapping[str, str]) -> set[str]:

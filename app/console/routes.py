@@ -17,7 +17,7 @@ from pydantic import BaseModel
 from starlette.datastructures import Headers
 from starlette.types import Scope
 
-from app.console.bundle import BUNDLE, ENTRY, bundled
+from app.console.bundle import BUNDLE, ENTRY, STYLE, bundled, styled
 from app.maps.streets.routes import ATTRIBUTION
 from app.maps.streets.sea import Box
 from app.serving.access.setup import PUBLIC_TILES
@@ -85,8 +85,10 @@ def contents() -> dict[str, Text]:
     """
     files = {path.relative_to(STATIC_DIR).as_posix(): path.read_bytes()
              for path in sorted(STATIC_DIR.rglob("*")) if path.is_file()}
-    modules = {path: content.decode() for path, content in files.items() if path.endswith(".js")}
-    files |= {path: text.encode() for path, text in bundled(modules).items()}
+    texts = {path: content.decode() for path, content in files.items()
+             if path.endswith((".css", ".js"))}
+    made = bundled({path: text for path, text in texts.items() if path.endswith(".js")})
+    files |= {path: text.encode() for path, text in {**made, STYLE: styled(texts)}.items()}
     return {path: Text(content, guess_type(path)[0]) for path, content in files.items()}
 
 

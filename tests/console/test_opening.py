@@ -67,6 +67,23 @@ def test_page_weighs_little(open_page: Callable[..., Page], service: str) -> Non
     assert 200_000 < sum(size for _, size in sizes) < MAX_PAGE_BYTES, sizes
 
 
+def test_what_the_first_plan_waits_for_is_asked_by_the_page_and_once(
+        open_page: Callable[..., Page], service: str) -> None:
+    page = open_page(service, locale="de-AT")
+    expect(page.locator("#total-cost")).to_be_visible()
+    asked = page.evaluate("""() => {
+      const [{ domInteractive }] = performance.getEntriesByType('navigation');
+      return performance.getEntriesByType('resource').map(({ name, startTime }) =>
+        [new URL(name).pathname.split('/').slice(-2).join('/'), startTime < domInteractive]);
+    }""")
+    # Modules run once the page is read: what they ask for comes round trips later.
+    early = ["/openapi.json", "console/config.json", "health/ready", "texts/de.js",
+             "granted/de.js", "reasons/de.js"]
+    assert sorted(each for each in asked if each[0] in early) == sorted(
+        [name, True] for name in early)
+    assert "texts/en.js" not in dict(asked)
+
+
 def test_who_comes_again_has_the_files_at_hand(page: Page, service: str) -> None:
     page.goto(f"{service}/?again")
     expect(page.locator("#total-cost")).to_be_visible()

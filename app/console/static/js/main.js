@@ -46,9 +46,11 @@ async function begin() {
     if (day) openDay(day.id, day.isWall).catch(showFailure);
   });
   try {
-    const [description, config, restored] = await Promise.all([
+    // The page has asked for the first three already: each alone would take a round trip.
+    const [description, config, readiness, restored] = await Promise.all([
       api.getDescription(),
       api.getConfig(),
+      api.getReadiness(),
       startKeeping(tokenInAddress() !== null || dayInAddress() !== null)]);
     const { examples } = description.paths['/plan'].post.requestBody.content['application/json'];
     store.set({
@@ -58,23 +60,23 @@ async function begin() {
         name, request: value, isFirst: name === FIRST_EXAMPLE,
       })),
     });
-    await open(restored, examples);
+    await open(restored, examples, readiness);
   } catch (error) {
     showFailure(error);
   }
 }
 
 /** Open what a link shares, else what was worked on before, else an example. */
-async function open(restored, examples) {
+async function open(restored, examples, readiness) {
   const token = tokenInAddress();
   if (token) {
     await viewShared(token);
-    await untilReady();
+    await untilReady(readiness);
     return;
   }
   const day = dayInAddress();
   if (day) {
-    await untilReady();
+    await untilReady(readiness);
     await openDay(day.id, day.isWall);
     return;
   }
@@ -84,7 +86,7 @@ async function open(restored, examples) {
     const name = exampleIn(examples);
     openRequest(examples[name].value, { name: t(`example.${name}.name`), isSafe: true });
   }
-  await untilReady();
+  await untilReady(readiness);
   await followKept();
   if (restored) await goOn(restored);
   else await plan();
@@ -97,14 +99,10 @@ function exampleIn(examples) {
   return Object.hasOwn(examples, name) ? name : FIRST_EXAMPLE;
 }
 
-async function untilReady() {
-  let readiness = await api.getReadiness();
-  while (readiness.status !== 'ready') {
-    store.set({ starting: readiness });
-    await new Promise((resolve) => {
-      setTimeout(resolve, READY_CHECK_MS);
-    });
-    readiness = await api.getReadiness();
+async function untilReady(first) {
+  for (let found = first; found.status !== 'ready'; found = await api.getReadiness()) {
+    store.set({ starting: found });
+    await new Promise((resolve) => setTimeout(resolve, READY_CHECK_MS));
   }
   store.set({ starting: null });
 }

@@ -1,8 +1,15 @@
-/* Sets light or dark before anything is drawn; a script of its own so that nothing blinks. */
-(function setTheme() {
+/* What is needed before modules run: light or dark, so that nothing blinks, and texts. */
+(function begin() {
+  const root = document.documentElement;
   const chosen = localStorage.getItem('tandem-theme');
   const dark = chosen ? chosen === 'dark' : matchMedia('(prefers-color-scheme: dark)').matches;
-  document.documentElement.dataset.theme = dark ? 'dark' : 'light';
-  const developer = localStorage.getItem('tandem-developer') === 'on';
-  document.documentElement.toggleAttribute('data-developer', developer);
+  root.dataset.theme = dark ? 'dark' : 'light';
+  root.toggleAttribute('data-developer', localStorage.getItem('tandem-developer') === 'on');
+  const tags = [localStorage.getItem('tandem-language') ?? '', ...navigator.languages, 'en'];
+  const language = /\b(en|de)\b/.exec(tags.map((tag) => tag.split('-')[0].toLowerCase()).join())[1];
+  for (const part of ['', 'granted/', 'reasons/']) {
+    const { href } = new URL(`../texts/${part}${language}.js`, document.scripts[0].src);
+    document.head.append(
+      Object.assign(document.createElement('link'), { rel: 'modulepreload', href }));
+  }
 })();
