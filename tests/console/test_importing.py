@@ -216,8 +216,10 @@ def test_drivers_are_told_where_and_whom_to_call(page: Page) -> None:
     open_tab(page, "export")
     page.get_by_role("button", name="Print all driver sheets").click()
     sheet = page.locator(".sheet-page").first
-    for text in ("Am Bach 5, 81369 M\u00fcnchen", "48.1102, 11.5454", "089 77", "2x klingeln"):
+    for text in ("Am Bach 5, 81369 M\u00fcnchen", "48.1102, 11.5454", "Phone: 089 77",
+                 "2x klingeln"):
         expect(sheet).to_contain_text(text)
+    expect(sheet.locator("th", has_text="Drones")).to_have_count(0)
 
 
 def test_what_drivers_are_told_is_edited_line_by_line(page: Page) -> None:

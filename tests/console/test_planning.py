@@ -75,7 +75,7 @@ def test_a_limit_that_fits_the_size_is_chosen_and_told(page: Page) -> None:
     expect(told).to_have_count(0)
     open_tab(page, "solve")
     field = page.locator("#field-options-time_limit")
-    expect(field).to_have_attribute("placeholder", "6")
+    expect(field).to_have_attribute("placeholder", "else 6")
     expect(page.locator("#field-options-time_limit-help")).to_contain_text(
         "Empty: 6, which fits 1,800 customers")
     set_option(page, "time_limit", "1.5")

@@ -201,7 +201,7 @@ def test_errors_of_the_service_are_shown_at_their_fields(
     request["fleet"][0]["speed_kmh"] = 0.1
     request["customers"][1]["demand"] = [-1]
     open_file(page, "wrong.json", json.dumps(request))
-    expect(page.get_by_role("alert")).to_contain_text("The request is not valid.")
+    expect(page.get_by_role("alert")).to_contain_text("Something in the problem is not right.")
     open_tab(page, "fleet")
     speed = page.locator("#field-fleet-0-speed_kmh")
     expect(page.locator("#field-fleet-0-speed_kmh-error")).to_contain_text("at least 1")

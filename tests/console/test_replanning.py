@@ -175,7 +175,7 @@ def test_what_can_not_be_replanned_is_said_where_it_belongs(
     page.get_by_label("Parcels are back at").press("Enter")
     page.locator(".tab").get_by_role("button", name="Plan on").click()
     alert = page.get_by_role("alert")
-    expect(alert).to_contain_text("The request has 2 errors")
+    expect(alert).to_contain_text("Put right 2 things, then plan again.")
     expect(page.locator("#room-day .count")).to_have_text("2")
     late = page.locator(".replan-vehicles tr").filter(has_text="too late to cancel")
     expect(late).to_have_count(1)

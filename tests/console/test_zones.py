@@ -3,6 +3,7 @@
 import json
 import math
 import random
+import re
 import zipfile
 from typing import Any
 
@@ -64,6 +65,33 @@ def test_zones_of_a_file_are_seen_planned_around_and_told(page: Page) -> None:
     assert state(page, "state.request.airspace.cleared") == []
     page.get_by_role("button", name="Remove file 1").click()
     assert state(page, "state.request.airspace.zones") == []
+
+
+def test_what_is_stated_of_a_zone_is_entered_where_it_is_clicked(page: Page) -> None:
+    open_example(page, "city_day")
+    customer = state(page, "state.request.customers.0")
+    file = json.loads(zones(*customer["location"]))
+    file["features"][0]["restriction"] = "CONDITIONAL"
+    file["features"][0]["geometry"][0]["upperVerticalReference"] = "AMSL"
+    open_file(page, "zones.json", json.dumps(file))
+    details = page.get_by_role("region", name="Details")
+    x, y = place_of(page, f"c:{customer['id']}")
+    page.mouse.click(x + 12, y + 11)
+    expect(details.get_by_role("heading")).to_have_text("Harbour (FIN1)")
+    expect(details).to_contain_text("from the ground to 120 m above the sea")
+    details.get_by_label("Leave to fly in Harbour (FIN1)").check()
+    details.get_by_label("Conditional zones").select_option("allow")
+    details.get_by_label("Ground", exact=True).check()
+    details.get_by_label("Lowest").fill("2")
+    page.keyboard.press("Enter")
+    airspace = state(page, "state.request.airspace")
+    assert (airspace["cleared"], airspace["conditional"]) == (["FIN1"], "allow")
+    assert airspace["ground"]["lowest"] == 2
+    assert findings(page, ".details") == []
+    # Who looks for a place on the ground finds it in a zone, too.
+    page.evaluate("async () => (await loaded(`store.js`)).store.set({ tool: 'order' })")
+    page.mouse.click(x + 12, y + 11)
+    assert re.match(r"60\.\d+, 24\.\d+", state(page, "state.order.place"))
 
 
 DRAWN = """() => [...document.querySelectorAll('.leaflet-overlay-pane canvas')].map((canvas) => {

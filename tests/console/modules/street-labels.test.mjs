@@ -11,7 +11,7 @@ function way(text, line, width = 80) {
 
 test('a name stands in the middle of its street, upright', () => {
   const [name, ...others] = placeNames([way('Main', [[300, 500], [100, 500]])], FRAME);
-  assert.deepEqual([name.x, name.y, others.length], [200, 500, 0]);
+  assert.deepEqual([name.x, name.y, name.width, others.length], [200, 500, 80, 0]);
   assert.ok(Math.abs(name.angle) < 1e-9);
   const [steep] = placeNames([way('Hill', [[100, 400], [300, 100]])], FRAME);
   assert.ok(Math.abs(steep.angle) < Math.PI / 2);

@@ -144,8 +144,11 @@ export function openTab(tab) {
 export function showFailure(error) {
   if (error.name === 'AbortError') return;
   const errors = (error.errors ?? []).map((entry) => ({ ...entry, keys: parsePath(entry.path) }));
-  const title = error.title ? titleOf(error) : t('failed.console');
-  store.set({ failure: { title, detail: error.message }, errors });
+  // What is wrong is told piece by piece: its count in the service's words says less.
+  const failure = errors.length
+    ? { title: t('failed.status422'), detail: t('failed.toMend', { count: errors.length }) }
+    : { title: error.title ? titleOf(error) : t('failed.console'), detail: error.message };
+  store.set({ failure, errors });
 }
 
 /** Close the message about a failure; errors stay where they belong until mended. */

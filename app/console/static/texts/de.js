@@ -684,6 +684,9 @@ export default {
   },
   zone: {
     unnamed: 'ohne Namen',
+    rule: 'Regel',
+    reaches: 'Reicht',
+    whose: 'Behörde',
     told: 'der Zone {{title}}: {{asks}}, {{reach}}.',
     authority: 'Zuständig: {{authority}}.',
     closed: 'Sie ist von {{begin}} bis {{end}} geschlossen.',
@@ -896,6 +899,7 @@ export default {
   },
   windows: {
     never: 'nie',
+    atOnce: 'sofort',
     opens: 'öffnet',
     closes: 'schließt',
     change_one: 'Dieses Zeitfenster ändern',
@@ -1729,6 +1733,8 @@ export default {
     numbers: 'Geben Sie Zahlen an, durch Kommas getrennt.',
     lines: 'Schreiben Sie Zeilen wie {{example}}.',
     asRuled: 'wie die Regel',
+    else: 'sonst {{value}}',
+    such: 'etwa {{example}}',
     addTo: { relations: 'Beziehung hinzufügen' },
     exampleWords: 'phone: 089 1234',
     exampleNumbers: 'van-1: 5',
@@ -1782,6 +1788,8 @@ export default {
       'versuchen Sie es erneut.',
     console: 'In der Konsole ist etwas schiefgegangen',
     search: 'Die Suche ist gescheitert',
+    toMend_one: 'Bitte eine Sache berichtigen, dann neu planen.',
+    toMend_other: 'Bitte {{count}} Dinge berichtigen, dann neu planen.',
   },
   said: {
     OUT_OF_RANGE: 'Dieser Wert ist zu klein oder zu groß.',
@@ -2438,6 +2446,7 @@ export default {
     count_other: '{{count}} Kunden nicht eingeplant',
     must_one: '{{count}} muss bedient werden: Für Auslassen ist kein Preis angegeben.',
     must_other: '{{count}} müssen bedient werden: Für Auslassen ist kein Preis angegeben.',
+    like: '{{count}} Kunden wie {{name}}',
     noReason: 'kein Grund gefunden',
     each: 'Jeder für sich, höchstens:',
     whatCosts: 'Was es kostet',
@@ -2621,7 +2630,7 @@ export default {
     opens: 'Von',
     closes: 'Bis',
     name: 'Name',
-    nameHint: 'wird vergeben',
+    nameHint: 'automatisch',
     price: 'Beste Fahrzeuge finden',
     wrong: {
       place: 'Dieser Ort ist hier nicht bekannt: zwei Zahlen (Breite, Länge) angeben, '

@@ -670,6 +670,9 @@ export default {
   },
   zone: {
     unnamed: 'without a name',
+    rule: 'Rule',
+    reaches: 'Reaches',
+    whose: 'Authority',
     told: 'the zone {{title}}, where {{asks}} {{reach}}.',
     authority: 'Its authority: {{authority}}.',
     closed: 'It is closed from {{begin}} to {{end}}.',
@@ -884,6 +887,7 @@ export default {
   },
   windows: {
     never: 'never',
+    atOnce: 'at once',
     opens: 'opens',
     closes: 'closes',
     change_one: 'Change this window',
@@ -1706,6 +1710,8 @@ export default {
     numbers: 'State numbers with commas between.',
     lines: 'Write lines such as {{example}}.',
     asRuled: 'as ruled',
+    else: 'else {{value}}',
+    such: 'such as {{example}}',
     addTo: { relations: 'Add a relation' },
     exampleWords: 'phone: 089 1234',
     exampleNumbers: 'van-1: 5',
@@ -1758,6 +1764,8 @@ export default {
       'No connection: check that the service runs and that you are online, then try again.',
     console: 'Something went wrong in the console',
     search: 'The search failed',
+    toMend_one: 'Put right one thing, then plan again.',
+    toMend_other: 'Put right {{count}} things, then plan again.',
   },
   said: {
     OUT_OF_RANGE: 'This value is too small or too large.',
@@ -2385,6 +2393,7 @@ export default {
     count_other: '{{count}} customers left out',
     must_one: '{{count}} must be served: no price is stated for leaving it out.',
     must_other: '{{count}} must be served: no price is stated for leaving them out.',
+    like: '{{count}} customers like {{name}}',
     noReason: 'no reason found',
     each: 'Each its own, at most:',
     whatCosts: 'What it costs',

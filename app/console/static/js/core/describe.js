@@ -8,6 +8,8 @@ import { choiceOf } from './schema.js';
 import { nameOfVehicle, titleOfVehicle } from './vehicle-labels.js';
 import { isVisit, leftOutOf, visitsOf } from './visits.js';
 import { windowsInWords, windowsOf } from './windows.js';
+import { describeZone } from './zone-words.js';
+import { zoneOf } from './zones.js';
 import { t } from '../texts.js';
 
 /** So many reasons why a customer is left out are told at once. */
@@ -16,6 +18,11 @@ const MOST_REASONS = 3;
 /** What of a customer's `info` imports name, and so has words. */
 const CARRIED = new Set(['address', 'order', 'phone', 'email', 'contact', 'notes']);
 
+/** Return what a part of a customer's `info` is called. */
+export function carriedInWords(name) {
+  return CARRIED.has(name) ? t(`import.meaning.${name}`) : name;
+}
+
 /** Return title and facts of what a key names: `{title, facts: [[term, value]], late}`. */
 export function describe(request, index, key) {
   if (!key) return null;
@@ -23,6 +30,8 @@ export function describe(request, index, key) {
   if (key[0] === 't') return describeTrip(index, key);
   if (key[0] === 'l') return describeLeg(request, index, key);
   if (key[0] === 'v') return describeVehicle(index, key);
+  const zone = zoneOf(request, key);
+  if (zone) return describeZone(zone);
   const halt = index?.halts.get(key);
   if (key[0] === 'd') return halt ? { title: titleOf(halt), facts: haltFacts(halt) } : null;
   const customer = visitsOf(request).find(({ id }) => id === key.slice(2)) ?? halt?.source;
@@ -85,7 +94,7 @@ function customerFacts(customer) {
     facts.push([t('field.alternatives'), customer.alternatives.map(({ id }) => id).join(', ')]);
   }
   for (const [name, told] of Object.entries(customer.info ?? {})) {
-    facts.push([CARRIED.has(name) ? t(`import.meaning.${name}`) : name, told]);
+    facts.push([carriedInWords(name), told]);
   }
   const price = customer.unassigned_cost;
   if (price !== null && price !== undefined) {
@@ -140,8 +149,8 @@ function describeSortie(index, key) {
       [t('about.from'), sortie.from.id],
       [t('about.to'), sortie.visits.map(({ id }) => id).join(', ')],
       [t('about.backAt'), sortie.to.id],
-      [t('about.takeOff'), clock(reply.launch_time, { precise: true })],
-      [t('about.recovered'), clock(reply.recovery_time, { precise: true })],
+      [t('about.takeOff'), clock(reply.launch_time)],
+      [t('about.recovered'), clock(reply.recovery_time)],
       [t('about.flown'), t('about.kmIn', {
         way: km(reply.distance),
         time: duration(reply.duration),

@@ -218,7 +218,7 @@ export function isByAir({ sortie, vehicle }) {
 
 /** Return the trip or vehicle that a key belongs to, as the key's own parts. */
 export function partsOf(index, key) {
-  if (!index || !key) return {};
+  if (!index || !key || key[0] === 'z') return {};
   const [kind, place] = [key[0], key.slice(2)];
   if (kind === 'c' || kind === 'd') {
     const halt = index.halts.get(key);

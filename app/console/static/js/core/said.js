@@ -6,7 +6,7 @@ import { parsePath } from './paths.js';
 import { closureInWords } from './zone-words.js';
 
 /** Names of fields and settings, places in a request, and what is written as in a request. */
-const OF_THE_API = /`|TANDEM_|\$\.|[a-z]\w*_\w|\[\w+, ?\w+\]|"\w+":|\w\[\d+\]/;
+const OF_THE_API = /`|\bids?\b|TANDEM_|\$\.|[a-z]\w*_\w|\[\w+, ?\w+\]|"\w+":|\w\[\d+\]/;
 
 const SETTING = / \(`?TANDEM_\w+`?[^)]*\)/g;
 

@@ -14,7 +14,8 @@ const CLEAR = 9; // pixels from the middle of a name to what it keeps clear of
 const CELL = 64; // pixels
 
 /**
- * Return where names stand: `{text, x, y, angle, kind}`, angles from -90 to 90 degrees in radians.
+ * Return where names stand: `{text, x, y, angle, kind, width}`, angles from -90 to 90 degrees in
+ * radians.
  *
  * @param ways `{text, kind, line, width}`, lines in pixels, those that matter most first
  * @param frame `[left, top, right, bottom]` that is seen
@@ -33,7 +34,7 @@ export function placeNames(ways, frame, kept = []) {
         isWithin(spot, width, frame) && taken.isFree(text, spot, width));
       if (place) {
         taken.take(text, place, width);
-        placed.push({ text, kind, ...place });
+        placed.push({ text, kind, width, ...place });
       }
     }
   }

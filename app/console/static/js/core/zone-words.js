@@ -26,6 +26,18 @@ export function reachOf({ lower, upper }) {
   return `${from} ${to}`;
 }
 
+/** Tell whether a zone has a limit above the sea, for which the ground's heights are needed. */
+export function isAboveSea({ lower, upper }) {
+  return [lower, upper].some((limit) => limit && limit.reference !== 'AGL');
+}
+
+/** Return what a zone is, as pairs of a term and its value. */
+export function describeZone(zone) {
+  return { title: titleOfZone(zone), facts: [
+    [t('zone.rule'), asksOf(zone)], [t('zone.reaches'), reachOf(zone)],
+    ...(zone.authority ? [[t('zone.whose'), zone.authority]] : [])] };
+}
+
 /** Return why a zone keeps drones away, as the service's reply tells it. */
 export function closureInWords(zone) {
   const { holds, metres, buffer } = zone;

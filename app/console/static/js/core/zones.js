@@ -80,6 +80,11 @@ export function zoneAreas(request) {
   });
 }
 
+/** Return the zone that a key such as `z:3` names, null if it names none. */
+export function zoneOf(request, key) {
+  return key[0] === 'z' ? zoneAreas(request)[Number(key.slice(2))] ?? null : null;
+}
+
 /** Return how many zones a file holds. */
 export function countZones({ format, data }) {
   return format === 'kml' ? placeMarks(data).filter((mark) => POLYGON.test(mark)).length

@@ -31,17 +31,13 @@ export function DrawBar() {
   return html`<div class="draw-bar">
     <button type="button" aria-expanded=${open} onClick=${toggle} title=${t('draw.title')}
       aria-label=${t('draw.title')}><${Icon} name="pencil" /></button>
-    ${open &&
-      html`<div class="draw-tools" role="group" aria-label=${t('draw.tools')}>
-      ${tools.map(
-        (key) => html`<button type="button" key=${key}
+    ${open && html`<div class="draw-tools" role="group" aria-label=${t('draw.tools')}>
+      ${tools.map((key) => html`<button type="button" key=${key}
         aria-pressed=${tool === key} onClick=${() => takeTool(key)}>
-          ${t(`tool.name.${key}`)}</button>`,
-      )}
+          ${t(`tool.name.${key}`)}</button>`)}
       ${tool && html`<div class="draw-options"><p>${t(`tool.hint.${tool}`)}</p>
         <${Brush} tool=${tool} /></div>`}
-    </div>`
-    }
+    </div>`}
   </div>`;
 }
 

@@ -6,7 +6,7 @@ import { latLng } from './layers.js';
 
 const L = leaflet();
 const EDGE = 36; // pixels around it
-const CLEAR = 16; // pixels around what lies on the map: half a label and more
+const CLEAR = { x: 40, y: 16 }; // pixels around what lies on the map: half a label and more
 
 /** What lies on the map and hides what is below it. */
 const OVER = '.draw-bar button, .map-tools, .leaflet-control, .map-legend, .map-title';
@@ -69,17 +69,18 @@ function touches(points, box) {
 }
 
 /** Return where something lies on a map, in pixels from its corner. */
-function overOn(map, isLarge = false) {
+export function overOn(map, isLarge = false, clear = CLEAR) {
   const frame = map.getContainer().getBoundingClientRect();
   const over = isLarge ? [] : map.getContainer().parentElement.querySelectorAll(OVER);
   return [...over, ...document.querySelectorAll(BESIDE)]
-    .map((element) => element.getBoundingClientRect())
-    .filter(({ width, height }) => width && height)
-    .filter(({ left, top, right, bottom }) => right > frame.left && left < frame.right
+    .map((element) => ({
+      aside: element.matches(BESIDE) ? clear.y : clear.x, box: element.getBoundingClientRect() }))
+    .filter(({ box: { width, height } }) => width && height)
+    .filter(({ box: { left, top, right, bottom } }) => right > frame.left && left < frame.right
       && bottom > frame.top && top < frame.bottom)
-    .map(({ left, top, right, bottom }) => L.bounds(
-      [left - frame.left - CLEAR, top - frame.top - CLEAR],
-      [right - frame.left + CLEAR, bottom - frame.top + CLEAR]));
+    .map(({ aside, box: { left, top, right, bottom } }) => L.bounds(
+      [left - frame.left - aside, top - frame.top - clear.y],
+      [right - frame.left + aside, bottom - frame.top + clear.y]));
 }
 
 /**

@@ -228,9 +228,13 @@ export function noFlyShapes(request, dark) {
 /** Return the published zones' shapes, which tell their names, heights and authorities. */
 export function zoneShapes(request, dark) {
   const colour = dark ? '#ff9d94' : '#a8321f';
-  return zoneAreas(request).map((area) => {
+  return zoneAreas(request).map((area, at) => {
     const { rings, center, radius } = area;
-    const style = { color: colour, weight: 1, fillColor: colour, fillOpacity: 0.08 };
+    const isFree = request.airspace.cleared?.includes(area.identifier);
+    const style = {
+      color: colour, weight: 1, dashArray: isFree ? '2 6' : null, fillColor: colour,
+      fillOpacity: isFree ? 0 : 0.08, key: `z:${at}`,
+    };
     const shape = rings
       ? L.polygon(rings.map((ring) => ring.map(latLng)), style)
       : L.circle(latLng(center), { ...style, radius });

@@ -53,12 +53,10 @@ export function MapPane() {
         && html`<p class="map-note">${request.matrices ? t('map.none') : t('map.empty')}</p>`}
     </div>
     ${split &&
-      beside &&
-      html`<div class="map-frame">
+      beside && html`<div class="map-frame">
       <p class="map-title">${t('map.before', { name: beside.name })}</p>
       <${Map} key=${groundOf(beside.request)} request=${beside.request} entry=${beside}
-        onView=${setSecond} /></div>`
-    }
+        onView=${setSecond} /></div>`}
   </section>`;
 }
 

@@ -100,11 +100,11 @@ export const StreetNames = L.Renderer.extend({
     this.family = getComputedStyle(this._map.getContainer()).fontFamily;
     const frame = [min.x, min.y, max.x, max.y];
     const ways = this._ways(context);
-    const placed = placeNames(ways, frame, ways.length ? this.keptClear() : []);
+    this.placed = placeNames(ways, frame, ways.length ? this.keptClear() : []);
     context.setTransform(sharpness, 0, 0, sharpness, 0, 0);
     context.translate(-min.x, -min.y);
     Object.assign(context, { textAlign: 'center', textBaseline: 'middle', lineJoin: 'round' });
-    for (const name of placed) this._write(context, name);
+    for (const name of this.placed) this._write(context, name);
   },
 
   _write(context, { text, kind, x, y, angle }) {

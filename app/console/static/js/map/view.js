@@ -100,6 +100,8 @@ export class MapView {
     /** @type {(key: string, event: any) => void} */
     this.onPress = () => {};
     this.map.on('click', ({ latlng }) => this.onGround([latlng.lng, latlng.lat]));
+    // What is meant for the ground goes on to it.
+    this.pressZone = (event) => this.isThrough || this.listeners.click(event);
     // Each has them itself: of one that was drawn anew under the pointer, its group hears no more.
     const pointed = (event) => this.onHover(this.#keyAt(event));
     this.listeners = {
@@ -133,7 +135,8 @@ export class MapView {
   /** Show a ground: tiles of a server if wanted, else the service's own. */
   setGround(asksServer) {
     this.grounds.forEach((ground) => ground.remove());
-    this.grounds = this.config ? groundsOf(this.config, asksServer, () => pointsOn(this)) : [];
+    this.grounds = this.config ? groundsOf(this.config, asksServer,
+      () => pointsOn(this, this.names.placed)) : [];
     this.grounds.forEach((ground) => ground.addTo(this.map));
     this.map.getContainer().classList.toggle('with-streets', this.grounds.length > 0);
     this.shade(this.dark);
@@ -153,8 +156,8 @@ export class MapView {
     [this.areas, this.shapes, this.labels, this.numbers].forEach((group) => group.clearLayers());
     this.noFly = noFlyShapes(request, dark);
     this.buffers = bufferShapes(request, dark);
-    [...this.buffers, ...zoneShapes(request, dark), ...this.noFly].forEach((shape) =>
-      this.areas.addLayer(shape));
+    const zones = zoneShapes(request, dark).map((shape) => shape.on('click', this.pressZone));
+    [...this.buffers, ...zones, ...this.noFly].forEach((shape) => this.areas.addLayer(shape));
     const lines = index ? planLines(index, parts, dark) : [];
     this.entries = [...lines, ...customerMarks(request, index, parts, dark)];
     this.byKey = new Map();

@@ -82,8 +82,10 @@ export function drawTimeline(context, rows, view) {
   for (const row of seen) drawRow(context, row, scale, view);
   if (view.drop) drawDrop(context, view.drop, scale, view);
   context.restore();
-  if (view.now !== null) drawNow(context, scale.x(view.now), view);
-  if (view.time !== null) drawClock(context, scale.x(view.time), view);
+  const { now, time, colours } = view;
+  // From when on things may change, and the clock.
+  drawInstant(context, now, scale, view, { colour: colours.text, lineWidth: 1.5, dash: [4, 3] });
+  drawInstant(context, time, scale, view, { colour: colours.accent, lineWidth: 2, dash: [] });
 }
 
 /** Mark the row and the instant where what is dragged would come. */
@@ -265,25 +267,15 @@ function hatch(context, { x, y, width, height }, colour) {
   context.strokeRect(x + 0.5, y + 0.5, Math.max(width - 1, 0.5), height - 1);
 }
 
-/** Draw from when on things may change. */
-function drawNow(context, x, { width, height, colours }) {
+/** Draw an instant, unless it is null or not seen, as a line from top to bottom. */
+function drawInstant(context, time, scale, { width, height }, { colour, lineWidth, dash }) {
+  const x = time === null ? -1 : scale.x(time);
   if (x < gutterOf(width) || x > width) return;
-  context.strokeStyle = colours.text;
-  context.lineWidth = 1.5;
-  context.setLineDash([4, 3]);
+  Object.assign(context, { strokeStyle: colour, lineWidth });
+  context.setLineDash(dash);
   context.beginPath();
   context.moveTo(x, 0);
   context.lineTo(x, height);
   context.stroke();
   context.setLineDash([]);
-}
-
-function drawClock(context, x, { width, height, colours }) {
-  if (x < gutterOf(width) || x > width) return;
-  context.strokeStyle = colours.accent;
-  context.lineWidth = 2;
-  context.beginPath();
-  context.moveTo(x, 0);
-  context.lineTo(x, height);
-  context.stroke();
 }

@@ -56,11 +56,9 @@ export function Player({ index }) {
       ${SPEEDS.map((value) => html`<option key=${value}
         value=${value}>${value / 60} min/s</option>`)}
     </select>
-    ${time !== null &&
-      html`${!isLive && html`<button type="button" onClick=${replanFromClock}>
+    ${time !== null && html`${!isLive && html`<button type="button" onClick=${replanFromClock}>
         ${t('player.replan')}</button>`}
       <button type="button" class="quiet"
-        onClick=${() => store.set({ time: null, playing: false })}>${t('player.end')}</button>`
-    }
+        onClick=${() => store.set({ time: null, playing: false })}>${t('player.end')}</button>`}
   </div>`;
 }

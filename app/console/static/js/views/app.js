@@ -60,17 +60,13 @@ function Notice() {
   if (failure) {
     return html`<div class="notice" role="alert">
       <div><strong>${failure.title}.</strong> <${Plain} message=${failure.detail} />
-        ${errors.length > 0 &&
-          html`<ul>${errors.slice(0, MOST_LISTED).map(
-            (error) => html`
+        ${errors.length > 0 && html`<ul>${errors.slice(0, MOST_LISTED).map((error) => html`
           <li key=${error.path + error.code}><button type="button" class="link"
             onClick=${() => goTo(error.keys)}>${whereInWords(request, error.keys)}</button>
-            ${' '}<${Said} ...${error} /></li>`,
-          )}
+            ${' '}<${Said} ...${error} /></li>`)}
           ${errors.length > MOST_LISTED &&
             html`<li>${t('app.more', { count: errors.length - MOST_LISTED })}</li>`
-          }</ul>`
-        }
+          }</ul>`}
       </div>
       <button type="button" class="quiet" onClick=${closeFailure}>${t('app.close')}</button></div>`;
   }

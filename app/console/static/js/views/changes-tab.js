@@ -46,8 +46,7 @@ function Changes() {
   const windows = request.customers.filter((customer) => windowsOf(customer).length).length;
   const onlyOne = request.fleet.length === 1;
   return html`<section class="section"><h3>${t('whatIf.title')}</h3>
-    ${request.fleet.map(
-      (type, position) => html`<div class="buttons" key=${position}>
+    ${request.fleet.map((type, position) => html`<div class="buttons" key=${position}>
       <span class="whole-line">${t('whatIf.now', { id: type.id, count: type.count })}${
         droneCount(type) > 0 && t('whatIf.withDrones', { count: droneCount(type) })}</span>
       <button type="button" disabled=${onlyOne && type.count === 1}
@@ -59,8 +58,7 @@ function Changes() {
         ${t('whatIf.more')}</button>
       <button type="button" aria-label=${t('whatIf.addDroneOf', { id: type.id })}
         onClick=${() => changeAndPlan(addDrone(request, position))}>
-        ${t('whatIf.addDrone')}</button></div>`,
-    )}
+        ${t('whatIf.addDrone')}</button></div>`)}
     <div class="buttons">
       <button type="button" disabled=${!hasDrones}
         onClick=${() => changeAndPlan(withoutDrones(request))}>

@@ -41,12 +41,10 @@ export function CostsTab() {
       <table><thead><tr><th scope="col">${t('costs.vehicle')}</th>
         <th scope="col" class="number">${t('costs.cost')}</th>
         <th scope="col">${t('costs.works')}</th></tr></thead>
-      <tbody>${plan.routes.map(
-        (route) => html`<tr key=${route.vehicle}>
+      <tbody>${plan.routes.map((route) => html`<tr key=${route.vehicle}>
           <th scope="row">${nameOfVehicle(route.vehicle)}</th>
         <td class="number">${money(route.cost)}</td><td>${duration(route.working_duration)}</td>
-          </tr>`,
-      )}
+          </tr>`)}
       </tbody></table></section>
     <${DronesWorth} />
     <${Summary} summary=${plan.summary} flights=${flightCount(entry)} />

@@ -5,6 +5,7 @@ import { describe } from '../core/describe.js';
 import { flightOfSortie, flightOfTrip } from '../core/height-profile.js';
 import { partsOf } from '../core/plan.js';
 import { renamed } from '../core/relations.js';
+import { zoneOf } from '../core/zones.js';
 import { html, useState } from '../libraries.js';
 import { cancelOrders } from '../ordering.js';
 import { useStore } from '../store.js';
@@ -16,6 +17,7 @@ import { Proofs } from './proofs.js';
 import { RuledFields } from './ruled-fields.js';
 import { StopMoves } from './stop-moves.js';
 import { WhyHere } from './why-here.js';
+import { ZoneFields } from './zone-fields.js';
 import { t } from '../texts.js';
 
 /** What is asked of every customer. */
@@ -34,12 +36,14 @@ export function Details() {
   if (!about) return null;
   const id = key[0] === 'c' ? key.slice(2) : null;
   const flight = flightOf(index, key);
+  const zone = zoneOf(request, key);
   return html`<section class="details" aria-label=${t('panel.details')}>
     <header><h2>${about.title}</h2>
       <${IconButton} name="x" label=${t('app.close')} onClick=${() => select(null)} /></header>
     <div class="inside"><${Facts} facts=${about.facts} />
       ${flight && html`<${HeightProfile} flight=${flight} rules=${index.plan.rules}
         ground=${request.airspace?.ground} />`}
+      ${zone && html`<${ZoneFields} key=${key} request=${request} zone=${zone} />`}
       ${id !== null && html`<${StopMoves} id=${id} /><${WhyHere} id=${id} />
         ${dispatch && html`<${Proofs} key=${`proofs ${id}`} dispatch=${dispatch.reply.id}
           order=${id} />`}

@@ -1,6 +1,6 @@
 /** Sheets for drivers, one page or more for each vehicle, for the printer alone. */
 
-import { noteOf } from '../core/describe.js';
+import { carriedInWords, noteOf } from '../core/describe.js';
 import { amounts, clock, duration, pointText, shownDate, timeWindow } from '../core/format.js';
 import { standingOf } from '../core/replanning.js';
 import { titleOfVehicle } from '../core/vehicle-labels.js';
@@ -44,12 +44,11 @@ function Sheet({ vehicle, parts, isGeographic, link }) {
       line: BLANK,
       date: shownDate() || BLANK,
     })}</p>
-    ${vehicle.trips.map(
-      (trip) => html`<section key=${trip.key}>
+    ${vehicle.trips.map((trip) => html`<section key=${trip.key}>
       <h2>${t('sheet.trip', { number: trip.index + 1, load: amounts(trip.reply.load) })}</h2>
-      <table><thead><tr>${COLUMNS.map(
-        (name) => html`<th key=${name}>${t(`sheet.${name}`)}</th>`,
-      )}</tr></thead>
+      <table><thead><tr>${COLUMNS
+        .filter((name) => name !== 'drones' || trip.sorties.length)
+        .map((name) => html`<th key=${name}>${t(`sheet.${name}`)}</th>`)}</tr></thead>
       <tbody>${trip.stops.map(
         (halt, position) => html`<tr key=${halt.key}><td>${position || ''}</td>
         <td>${clock(halt.arrival)}</td><td>${clock(halt.departure)}</td>
@@ -57,8 +56,8 @@ function Sheet({ vehicle, parts, isGeographic, link }) {
         }${place(halt, isGeographic)}</td>
         <td>${isVisit(halt) ? timeWindow(halt.window) : ''}</td>
         <td>${isVisit(halt) ? handed(halt.source) : ''}</td>
-        <td>${orders(trip, halt).map((order) => html`<div
-          key=${order}>${order}</div>`)}</td>
+        ${trip.sorties.length > 0 && html`<td>${orders(trip, halt).map((order) => html`<div
+          key=${order}>${order}</div>`)}</td>`}
         <td>${standingInWords(standingOf(parts, {
           vehicle: vehicle.name, trip: trip.index, stop: position }))}</td></tr>`,
       )}
@@ -79,29 +78,20 @@ function place({ location, source }, isGeographic) {
   const { address, ...told } = source?.info ?? {};
   const where = [address, location && pointText(location, { isGeographic })].filter(Boolean);
   return html`${where.map((text) => html`<br key=${text} /><small>${text}</small>`)}
-    ${Object.entries(told).map(
-      ([name, text]) => html`<div key=${name}><small>${name}:</small> ${text}</div>`,
-    )}`;
+    ${Object.entries(told).map(([name, text]) => html`<div key=${name}><small>${carriedInWords(name)}:</small> ${text}</div>`)}`;
 }
 
 /** Return what the driver does with drones at a stop. */
 function orders(trip, halt) {
   const name = (sortie) => sortie.drone.slice(sortie.drone.lastIndexOf('/') + 1);
-  const launches = trip.sorties
-    .filter(({ from }) => from === halt)
-    .map(
-      (sortie) =>
-        t('sheet.launch', {
-          at: clock(sortie.reply.launch_time),
-          drone: name(sortie),
-          names: sortie.visits.map(({ id, source }) => `${id} (${handed(source)})`).join(', '),
-        }));
-  const recoveries = trip.sorties
-    .filter(({ to }) => to === halt)
-    .map((sortie) => t('sheet.recover', {
-      at: clock(sortie.reply.recovery_time),
+  const launches = trip.sorties.filter(({ from }) => from === halt).map((sortie) =>
+    t('sheet.launch', {
+      at: clock(sortie.reply.launch_time),
       drone: name(sortie),
+      names: sortie.visits.map(({ id, source }) => `${id} (${handed(source)})`).join(', '),
     }));
+  const recoveries = trip.sorties.filter(({ to }) => to === halt).map((sortie) =>
+    t('sheet.recover', { at: clock(sortie.reply.recovery_time), drone: name(sortie) }));
   return [...launches, ...recoveries].sort((first, second) =>
     first.localeCompare(second, 'en', { numeric: true }));
 }

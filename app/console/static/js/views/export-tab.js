@@ -55,8 +55,7 @@ export function ExportTab() {
         <button type="button" onClick=${() => print(index.vehicles)}>
           ${t('take.printAll')}</button></div>
       ${!isGeographic && html`<p class="help">${t('take.planar')}</p>`}
-      <table><tbody>${index.vehicles.map(
-        (vehicle) => html`<tr key=${vehicle.key}>
+      <table><tbody>${index.vehicles.map((vehicle) => html`<tr key=${vehicle.key}>
         <th scope="row"><${Badge} vehicle=${vehicle} /> ${nameOfVehicle(vehicle.name)}</th>
         <td><div class="buttons">
           <button type="button" onClick=${() => print([vehicle])}
@@ -66,8 +65,7 @@ export function ExportTab() {
             aria-label=${t('take.gpxOf', { vehicle: nameOfVehicle(vehicle.name) })}
             onClick=${() =>
               save(`${vehicle.name}.gpx`, 'application/gpx+xml', gpx(vehicle))}>GPX</button>
-        </div></td></tr>`,
-      )}</tbody></table></section>`;
+        </div></td></tr>`)}</tbody></table></section>`;
 }
 
 function saveJson(name, value) {

@@ -4,8 +4,7 @@ import { edit } from '../actions.js';
 import { freeName } from '../core/changes.js';
 import { droneCount, needlessFields } from '../core/drones.js';
 import { amounts } from '../core/format.js';
-import { removeIn, setIn } from '../core/paths.js';
-import { titleOfZone } from '../core/zone-words.js';
+import { removeIn } from '../core/paths.js';
 import { countZones, PROPOSED_BUFFER_M, withBuffer, zoneAreas } from '../core/zones.js';
 import { html, useEffect, useState } from '../libraries.js';
 import { useStore } from '../store.js';
@@ -13,6 +12,7 @@ import { Field } from './form.js';
 import { useOpening } from './parts.js';
 import { RuledFields } from './ruled-fields.js';
 import { WindForm } from './wind-form.js';
+import { AirspaceFields, Leave } from './zone-fields.js';
 import { t } from '../texts.js';
 
 /** What is asked of every type. */
@@ -63,10 +63,8 @@ export function FleetTab() {
       <label><input type="checkbox" checked=${help}
         onChange=${() => setHelp(!help)} /> ${t('fleet.explain')}</label>
     </div>
-    ${request.fleet.map(
-      (type, position) => html`<${VehicleType} key=${position} type=${type}
-      position=${position} request=${request} isNew=${position === added?.position} />`,
-    )}
+    ${request.fleet.map((type, position) => html`<${VehicleType} key=${position} type=${type}
+      position=${position} request=${request} isNew=${position === added?.position} />`)}
     <${WindForm} request=${request} />
     <fieldset class="group"><legend>${t('field.no_fly')}</legend>
       ${(request.airspace?.no_fly ?? []).map(
@@ -93,7 +91,7 @@ export function FleetTab() {
         request=${request} />`)}
       <p class="help">${t('fleet.dropZones')}</p>
     </fieldset>
-    <${Airspace} request=${request} properties=${schemas.AirspaceInput.properties} />
+    <${Airspace} request=${request} />
     <fieldset class="group"><legend>${t('fleet.leftOut')}</legend>
       <${Field} name="unassigned_cost" schema=${properties.unassigned_cost}
         keys=${['unassigned_cost']}
@@ -109,25 +107,12 @@ function namedZones(request) {
   return zones.has(null) || zones.size > MOST_ZONES ? [] : [...zones.values()];
 }
 
-/** Whether there is leave to fly in a zone. */
-function Leave({ request, zone }) {
-  const { cleared = [] } = request.airspace;
-  const others = cleared.filter((other) => other !== zone.identifier);
-  const change = ({ target }) => edit(setIn(request, ['airspace', 'cleared'],
-    target.checked ? [...others, zone.identifier] : others));
-  return html`<label class="check"><input type="checkbox" onChange=${change}
-    checked=${others.length < cleared.length} /> ${t('fleet.leave', {
-      zone: titleOfZone(zone) })}</label>`;
-}
-
 /** What flights keep from areas and zones, and which zones block; a distance is proposed. */
-function Airspace({ request, properties }) {
+function Airspace({ request }) {
   const { no_fly: areas = [], zones = [], buffer } = request.airspace ?? {};
   const ofZones = namedZones(request).length ? OF_ZONES.slice(1) : OF_ZONES;
   return html`<fieldset class="group"><legend>${t('field.airspace')}</legend>
-    ${['buffer', ...(zones.length ? ofZones : [])].map((name) => html`<${Field} key=${name}
-      name=${name} schema=${properties[name]} keys=${['airspace', name]} request=${request}
-      owner="AirspaceInput" onChange=${edit} />`)}
+    <${AirspaceFields} request=${request} names=${['buffer', ...(zones.length ? ofZones : [])]} />
     ${areas.length + zones.length > 0 && buffer === undefined && html`<div class="buttons">
       <button type="button" onClick=${() => edit(withBuffer(request))}>
         ${t('fleet.keepAway', { count: PROPOSED_BUFFER_M })}</button></div>`}
@@ -141,11 +126,11 @@ function VehicleType({ type, position, request, isNew }) {
   ).length;
   const drones = droneCount(type) ? `, ${t('fleet.drones', { count: droneCount(type) })}` : '';
   const choices = { depot: request.depots.map(({ id }) => id) };
-  const skip = [...(request.matrices ? [] : ['profile']), ...needlessFields(type)];
+  const ofTables = request.matrices ? [] : ['profile', 'start_location_index'];
+  const skip = [...ofTables, ...needlessFields(type)];
   const card = useOpening(position === 0 || isNew || errors > 0);
   return html`<details class="card" ref=${card}>
-    <summary><strong>${type.id}</strong> ${errors > 0 &&
-      html`<span class="error">
+    <summary><strong>${type.id}</strong> ${errors > 0 && html`<span class="error">
       ${t('fleet.errors', { count: errors })}</span>`
     }<span class="right">${t('header.vehicles', { count: type.count })}, ${
       t('fleet.capacity', { amounts: amounts(type.capacity ?? []) }) + drones}</span></summary>
@@ -153,10 +138,8 @@ function VehicleType({ type, position, request, isNew }) {
       <${RuledFields} schema=${schemas.VehicleTypeInput} keys=${['fleet', position]}
         everyday=${EVERYDAY} topics=${TOPICS} request=${request} onChange=${edit}
         choices=${choices} skip=${skip} />
-      ${request.fleet.length > 1 &&
-        html`<div class="buttons"><button type="button" onClick=${() =>
+      ${request.fleet.length > 1 && html`<div class="buttons"><button type="button" onClick=${() =>
           edit(removeIn(request, ['fleet', position]))}>
-          ${t('fleet.remove', { id: type.id })}</button></div>`
-      }
+          ${t('fleet.remove', { id: type.id })}</button></div>`}
     </div></details>`;
 }

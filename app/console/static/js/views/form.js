@@ -30,13 +30,11 @@ export function Fields({ schema, keys, request, onChange, skip = [], choices = {
   const { properties = {}, required = [], title } = resolve(schemas, schema).schema;
   const names = Object.keys(properties).filter((name) => !skip.includes(name)
     && !isOfTables(name, request, keys));
-  return html`<div class="fields">${names.map(
-    (name) => html`
+  return html`<div class="fields">${names.map((name) => html`
     <${Field} key=${keyOf([...keys, name])} name=${name} owner=${title}
       schema=${properties[name]}
       keys=${[...keys, name]} request=${request} onChange=${onChange} choices=${choices}
-      required=${required.includes(name)} />`,
-  )}</div>`;
+      required=${required.includes(name)} />`)}</div>`;
 }
 
 /** Tell whether a field is of places in tables of legs, of which there are none. */
@@ -126,11 +124,9 @@ function PlainField({
     <span class="unit">${
       TIMES[kind] || labelOf(name).endsWith(unitOf(schema)) ? '' : unitOf(schema)}</span>
     ${help}
-    ${isWrong &&
-      html`<div class="error" id=${`${id}-error`}>${
+    ${isWrong && html`<div class="error" id=${`${id}-error`}>${
         problem ?? errors.map((error) => html`<${Said} key=${error.code} ...${error} />`)
-      }</div>`
-    }
+      }</div>`}
   </div>`;
 }
 
@@ -218,6 +214,14 @@ function valueOf(text, { kind, required }) {
     : { value: values };
 }
 
+/** Return what stands in an empty field: what that means, in words that are no value. */
+function hintOf(kind, schema, nullable) {
+  const means = emptyMeans(schema, nullable);
+  if (!/^[\d.]+$/.test(means)) return means;
+  const value = TIMES[kind] ? TIMES[kind].show(Number(means)) : withDecimals(means);
+  return TIMES[kind] && Number(means) === 0 ? '' : t('form.else', { value });
+}
+
 function TextInput({
   id, kind, schema, value, set, nullable, required, describedBy, invalid, onProblem, label = null,
 }) {
@@ -235,7 +239,7 @@ function TextInput({
   return html`<input type="text" id=${id} value=${text} aria-describedby=${describedBy}
     aria-label=${label} aria-invalid=${invalid} aria-required=${required} autocomplete="off"
     spellcheck=${false} inputmode=${numeric ? 'decimal' : 'text'}
-    placeholder=${TIMES[kind] && schema.default === 0 ? '' : emptyMeans(schema, nullable)}
+    placeholder=${hintOf(kind, schema, nullable)}
     onInput=${(event) => setText(event.target.value)} onBlur=${commit}
     onKeyDown=${(event) => event.key === 'Enter' && commit()} />`;
 }
@@ -257,10 +261,8 @@ function ObjectField({ name, schema, keys, request, onChange, nullable, choices,
     }</legend>
     ${help}
     <p class="assumed" role="status">${present ? assumptionIn(name, request, value) : ''}</p>
-    ${(present || !nullable) &&
-      html`<${Fields} schema=${schema} keys=${keys} request=${request}
-      onChange=${onChange} choices=${choices} />`
-    }
+    ${(present || !nullable) && html`<${Fields} schema=${schema} keys=${keys} request=${request}
+      onChange=${onChange} choices=${choices} />`}
   </fieldset>`;
 }
 
@@ -288,8 +290,8 @@ function WordsField({ name, keys, request, onChange, errors, schema, help }) {
     <label for=${id}>${labelOf(name)}</label>
     <textarea id=${id} rows=${Math.min(value.split('\n').length + 1, 6)} value=${text}
       aria-describedby=${`${id}-help`} aria-invalid=${isWrong}
-      placeholder=${lines.example()} onInput=${(event) => setText(event.target.value)}
-      onBlur=${commit}></textarea>
+      placeholder=${t('form.such', { example: lines.example() })} onBlur=${commit}
+      onInput=${(event) => setText(event.target.value)}></textarea>
     ${help}
     ${!words && html`<p class="error">${t('form.lines', { example: lines.example() })}</p>`}
     ${errors.map((error) => html`<div class="error"><${Said} ...${error} /></div>`)}
@@ -337,15 +339,13 @@ function ListField({ name, schema, keys, request, onChange, nullable, errors, ch
     <legend>${labelOf(name)}</legend>
     ${help}
     ${errors.map((error) => html`<div class="error"><${Said} ...${error} /></div>`)}
-    ${values.map(
-      (entry, index) => html`<div class="entry" key=${index}>
+    ${values.map((entry, index) => html`<div class="entry" key=${index}>
       <${Fields} schema=${schema.items} keys=${[...keys, index]} request=${request}
         onChange=${onChange} choices=${choices}
         skip=${name === 'relations' ? needlessIn(entry) : []} />
       <button type="button" class="quiet"
         onClick=${() => remove(index)}>${t('form.remove', { number: index + 1 })}</button>
-    </div>`,
-    )}
+    </div>`)}
     <button type="button" onClick=${add}>${t(`form.addTo.${name}`, {
       defaultValue: t('form.add', { list: withinSentence(labelOf(name)) }),
     })}</button>

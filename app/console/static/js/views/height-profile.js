@@ -36,11 +36,9 @@ export function HeightProfile({ flight, rules, ground }) {
           percent(share)}</text>`}</g>`)}
       <text x=${LEFT} y=${HEIGHT - 4}>${told.from}</text>
       <text x=${RIGHT} y=${HEIGHT - 4} text-anchor="end">${told.until}</text>
-      ${visits.map(
-        ({ id, arrival, departure }) => html`<rect key=${id} x=${x(arrival)} y=${TOP}
+      ${visits.map(({ id, arrival, departure }) => html`<rect key=${id} x=${x(arrival)} y=${TOP}
           width=${Math.max(x(departure) - x(arrival), 1)} height=${GROUND - TOP}
-          fill="currentColor" opacity="0.15"><title>${id}</title></rect>`,
-      )}
+          fill="currentColor" opacity="0.15"><title>${id}</title></rect>`)}
       <polyline points=${line(corners.map(({ time, height }) =>
         [time, height / Math.max(altitude, 1)]))} fill="none" stroke="currentColor"
         stroke-width="2" />

@@ -72,18 +72,14 @@ function Errors({ importing: { reply, choices } }) {
   return html`<div role="alert">
     <p class="error"><strong>${t('import.errors', { count: reply.num_errors })}</strong>
       ${' '}${t('import.mend')}</p>
-    <ul>${reply.errors.slice(0, MOST_LISTED).map(
-      (error, position) => html`<li key=${position}>
-        ${error.cell && html`<strong>${error.cell}</strong>: `}${grantedInWords(error)}</li>`,
-    )}
+    <ul>${reply.errors.slice(0, MOST_LISTED).map((error, position) => html`<li key=${position}>
+        ${error.cell && html`<strong>${error.cell}</strong>: `}${grantedInWords(error)}</li>`)}
     ${more > 0 && html`<li>${t('app.more', { count: more })}</li>`}
     </ul></div>
-    ${inRows &&
-      html`<label class="check"><input type="checkbox"
+    ${inRows && html`<label class="check"><input type="checkbox"
         checked=${Boolean(choices.leave_out_errors)} onChange=${(event) =>
           change({ choices: { ...choices, leave_out_errors: event.target.checked } })} />
-        ${t('import.leaveOutErrors')}</label>`
-    }`;
+        ${t('import.leaveOutErrors')}</label>`}`;
 }
 
 function Doubts({ reply: { doubts } }) {

@@ -36,11 +36,9 @@ export function ImportMap({ importing }) {
           isPlaced=${Boolean(places[entry.address])}
           isActive=${placing?.address === entry.address} />`)}</ul>
         ${open > 0 &&
-          !finds &&
-          html`<label class="check"><input type="checkbox" checked=${leavesUnplaced}
+          !finds && html`<label class="check"><input type="checkbox" checked=${leavesUnplaced}
             onChange=${(event) => leaveUnplaced(event.target.checked)} />
-            ${t('import.leaveUnplaced')}</label>`
-        }`
+            ${t('import.leaveUnplaced')}</label>`}`
       }</div></section>`;
 }
 
@@ -67,7 +65,7 @@ function Typed({ address }) {
     if (isPlace) placeAt([lon, lat]);
   };
   return html`<label>${t('import.typePlace')}<input type="text" id="import-place"
-    placeholder="48.137, 11.575" aria-invalid=${isWrong} aria-description=${address}
+    placeholder=${t('import.help.depot')} aria-invalid=${isWrong} aria-description=${address}
     onChange=${take} /></label>`;
 }
 

@@ -12,11 +12,9 @@ export function Reading({ importing: { reply, mapping } }) {
   const dayFirst = mapping.day_first == null ? '' : String(mapping.day_first);
   const encodings = [...new Set([reply.encoding, ...ENCODINGS])].map((name) => [name, name]);
   return html`<details><summary>${t('import.reading')}</summary><div class="import-fields">
-    ${reply.sheets.length > 1 &&
-      html`<${Choice} label=${t('import.sheet')} value=${reply.sheet}
+    ${reply.sheets.length > 1 && html`<${Choice} label=${t('import.sheet')} value=${reply.sheet}
         options=${reply.sheets.map(({ name }) => [name, name])}
-        onChoose=${(sheet) => choose({ sheet, columns: [] })} />`
-    }
+        onChoose=${(sheet) => choose({ sheet, columns: [] })} />`}
     ${reply.encoding &&
       html`<${Choice} label=${t('import.letters')} value=${reply.encoding} options=${encodings}
         onChoose=${(encoding) => choose({ encoding })} />`

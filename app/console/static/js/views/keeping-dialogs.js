@@ -49,12 +49,10 @@ function Plans({ plans, drafts, failure }) {
     <ul class="kept-list" aria-label=${t('kept.plans')}>${plans.map(
       (plan) => html`<${Kept} key=${plan.where + plan.id} plan=${plan} />`,
     )}</ul>
-    ${drafts.length > 0 &&
-      html`<h3>${t('kept.drafts')}</h3>
+    ${drafts.length > 0 && html`<h3>${t('kept.drafts')}</h3>
       <ul class="kept-list" aria-label=${t('kept.draftsLabel')}>${drafts.map(
         (draft) => html`<${Draft} key=${draft.id} draft=${draft} />`,
-      )}</ul>`
-    }`;
+      )}</ul>`}`;
 }
 
 function Kept({ plan }) {
@@ -72,10 +70,8 @@ function Kept({ plan }) {
       <button type="button" disabled=${cost === null || !hasPlan}
         aria-label=${t('kept.compareOf', { name })}
         onClick=${() => kept.putBeside(plan)}>${t('kept.compare')}</button>
-      ${where === 'service' &&
-        html`<button type="button" aria-label=${t('kept.share', { name })}
-        onClick=${() => kept.openLinks(plan)}>${t('kept.shareIt')}</button>`
-      }
+      ${where === 'service' && html`<button type="button" aria-label=${t('kept.share', { name })}
+        onClick=${() => kept.openLinks(plan)}>${t('kept.shareIt')}</button>`}
       <${Deletion} name=${name} warning=${links > 0 ? t('kept.linksEnd') : ''}
         onDelete=${() => kept.deleteKept(plan)} /></div></li>`;
 }

@@ -46,7 +46,7 @@ export function SelectButton({ of: key, children }) {
     onClick=${() => select(selected ? null : key)}>${children}</button>`;
 }
 
-const LONG = 16; // characters
+const LONG = 10; // characters
 const END = 7;
 
 /** A name, the middle of which gives way where there is no room, as ends tell names apart. */
@@ -66,10 +66,8 @@ export function ShareBar({ share, text, label, colour }) {
 
 /** Pairs of a term and its value. */
 export function Facts({ facts }) {
-  return html`<dl class="facts">${facts.map(
-    ([term, value]) => html`
-    <div key=${term}><dt>${term}</dt><dd>${value}</dd></div>`,
-  )}</dl>`;
+  return html`<dl class="facts">${facts.map(([term, value]) => html`
+    <div key=${term}><dt>${term}</dt><dd>${value}</dd></div>`)}</dl>`;
 }
 
 /** A dialog over the page, closed by Escape or its button. */

@@ -62,18 +62,15 @@ export function Places({ request }) {
       <${Field} name="coordinate_system" schema=${properties.coordinate_system}
         keys=${['coordinate_system']} request=${request} onChange=${edit} />
       ${request.coordinate_system !== 'geographic' &&
-        ['planar_unit', 'planar_rounding'].map(
-          (name) => html`<${Field} key=${name} name=${name}
+        ['planar_unit', 'planar_rounding'].map((name) => html`<${Field} key=${name} name=${name}
         schema=${properties[name]} keys=${[name]} request=${request}
-          onChange=${edit} />`,
-        )
+          onChange=${edit} />`)
       }
       ${request.coordinate_system === 'geographic' && request.roads !== 'none' &&
         html`<${Field} name="approach" owner="RoadsInput" keys=${['roads', 'approach']}
           schema=${schemas.RoadsInput.properties.approach} request=${request}
           onChange=${edit} />`}
-      ${request.depots.map(
-        (_, position) => html`<fieldset class="group" key=${position}>
+      ${request.depots.map((_, position) => html`<fieldset class="group" key=${position}>
         <legend>${t('where.depot', { id: String(position + 1) })}</legend>
         <${Fields} schema=${schemas.DepotInput} keys=${['depots', position]} request=${request}
           onChange=${edit} skip=${request.matrices ? [] : ['location_index']} />
@@ -82,8 +79,7 @@ export function Places({ request }) {
             edit(removeIn(request, ['depots', position]))}>
             ${t('customers.removeDepot')}</button></div>`
         }
-      </fieldset>`,
-      )}
+      </fieldset>`)}
       <${Field} name="launch_sites" schema=${properties.launch_sites} keys=${['launch_sites']}
         request=${request} onChange=${edit} />
       <div class="buttons"><button type="button" onClick=${addDepot}>

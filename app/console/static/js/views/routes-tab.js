@@ -27,10 +27,8 @@ export function RoutesTab() {
   if (!index) return html`<p class="empty">${t('timeline.nothing')}</p>`;
   if (!index.vehicles.length) return html`<p class="empty">${t('timeline.unused')}</p>`;
   return html`<${Rates} index=${index} />
-    ${index.vehicles.map(
-      (vehicle) => html`<${Vehicle} key=${vehicle.key} index=${index}
-      vehicle=${vehicle} />`,
-    )}`;
+    ${index.vehicles.map((vehicle) => html`<${Vehicle} key=${vehicle.key} index=${index}
+      vehicle=${vehicle} />`)}`;
 }
 
 function Rates({ index }) {
@@ -87,13 +85,9 @@ function Vehicle({ index, vehicle }) {
           : []),
         money(route.cost),
       ].join(', ')}</span></summary>
-    ${open &&
-      html`<div class="inside"><${IdleDrones} vehicle=${vehicle.name} />
-        <${LockAll} vehicle=${vehicle} />${vehicle.trips.map(
-        (trip) => html`<${Trip} key=${trip.key}
-      index=${index} trip=${trip} />`,
-      )}</div>`
-    }</details>`;
+    ${open && html`<div class="inside"><${IdleDrones} vehicle=${vehicle.name} />
+        <${LockAll} vehicle=${vehicle} />${vehicle.trips.map((trip) => html`<${Trip} key=${trip.key}
+      index=${index} trip=${trip} />`)}</div>`}</details>`;
 }
 
 /** Locks all customers of a vehicle, or lets go of them. */
@@ -134,18 +128,14 @@ function Trip({ index, trip }) {
       ${columns.window && html`<th scope="col">${t('about.window')}</th>`}
       ${columns.late && html`<th scope="col">${t('routes.late')}</th>`}
       <th scope="col" class="number">${t('about.loaded')}</th></tr></thead>
-    <tbody>${trip.stops.map(
-      (halt) => html`
+    <tbody>${trip.stops.map((halt) => html`
       <${Stop} key=${halt.key} index=${index} halt=${halt} selection=${selection}
         hovered=${hovered} columns=${columns} />
       ${trip.sorties
         .filter((sortie) => sortie.from === halt)
-        .map(
-          (sortie) => html`<${Sortie}
+        .map((sortie) => html`<${Sortie}
         key=${sortie.key} index=${index} sortie=${sortie} selection=${selection}
-          hovered=${hovered} columns=${columns} />`,
-        )}`,
-    )}
+          hovered=${hovered} columns=${columns} />`)}`)}
     </tbody></table></div>`;
 }
 
@@ -184,8 +174,6 @@ function Sortie({ index, sortie, selection, hovered, columns }) {
           way: km(reply.distance), back: sortie.to.id,
         })}${isUseless && html`<strong class="late-text">, ${
           t('routes.useless')}</strong>`}</td></tr>
-    ${sortie.visits.map(
-      (halt) => html`<${Stop} key=${halt.key} index=${index} halt=${halt}
-      selection=${selection} hovered=${hovered} columns=${columns} />`,
-    )}`;
+    ${sortie.visits.map((halt) => html`<${Stop} key=${halt.key} index=${index} halt=${halt}
+      selection=${selection} hovered=${hovered} columns=${columns} />`)}`;
 }

@@ -84,12 +84,10 @@ function Compare() {
     setName('');
   };
   return html`<section class="section"><h3>${t('scenario.compare')}</h3>
-    ${Object.entries(fleets).map(
-      ([fleet, types]) => html`<label key=${fleet}><input type="checkbox"
+    ${Object.entries(fleets).map(([fleet, types]) => html`<label key=${fleet}><input type="checkbox"
       checked=${!left.includes(fleet)}
         onChange=${() => toggle(fleet)} /> <strong>${fleet}:</strong>${' '}
-      <span class="help">${types.map(typeInWords).join(', ')}</span></label>`,
-    )}
+      <span class="help">${types.map(typeInWords).join(', ')}</span></label>`)}
     <div class="buttons"><input type="text" value=${name} placeholder=${t('scenario.fleetName')}
         aria-label=${t('scenario.keepBy')} onInput=${(event) => setName(event.target.value)} />
       <button type="button" disabled=${!name.trim()}
@@ -131,22 +129,19 @@ function Sweep() {
       grid: Object.fromEntries(used.map(({ path }, index) => [path, values[index]])),
     });
   return html`<section class="section"><h3>${t('scenario.sweep')}</h3>
-    ${axes.map(
-      (axis, index) => html`<div class="sweep-axis" key=${index}>
+    ${axes.map((axis, index) => html`<div class="sweep-axis" key=${index}>
       <select aria-label=${t('scenario.axis', { number: index + 1 })} value=${axis.path}
           onChange=${(event) => choose(index, event.target.value)}>
         ${index > 0 && html`<option value="">${t('scenario.nothing')}</option>`}
         ${fields.map(({ path, label }) => html`<option key=${path}
           value=${path}>${label}</option>`)}</select>
-      ${axis.path &&
-        html`<input type="text" value=${axis.text} 
+      ${axis.path && html`<input type="text" value=${axis.text}
         aria-label=${t('scenario.values', { number: index + 1 })}
         aria-invalid=${readValues(axis.text, unit(axis)) === null}
-        placeholder=${unit(axis) === 's' ? '4:00, 5:30' : '100, 150'}
+        placeholder=${t('form.such', {
+          example: unit(axis) === 's' ? '4:00, 5:30' : '100, 150' })}
         onInput=${(event) => set(index, { text: event.target.value })} />
-        <span class="unit">${unit(axis) === 's' ? 'h:mm' : unit(axis)}</span>`
-      }</div>`,
-    )}
+        <span class="unit">${unit(axis) === 's' ? 'h:mm' : unit(axis)}</span>`}</div>`)}
     <p class="help">${t('scenario.alike')}</p>
     <div class="buttons"><button type="button" class="primary" disabled=${!ready} onClick=${start}>
       ${t('scenario.sweepCount', { count: size })}</button></div></section>`;
@@ -157,12 +152,10 @@ function Running({ scenario }) {
   return html`<section class="section" aria-live="polite"><div class="buttons"><span
     id="scenario-state">
       ${t(`scenario.kind.${scenario.kind}`)}: ${t(`scenario.state.${scenario.state}`)}</span>
-    ${!over &&
-      html`<span class="progress" role="progressbar" aria-label=${t('scenario.progress')}
+    ${!over && html`<span class="progress" role="progressbar" aria-label=${t('scenario.progress')}
       aria-valuemin="0" aria-valuemax="100" aria-valuenow=${Math.round(scenario.progress * 100)}>
       <span style=${{ width: `${scenario.progress * 100}%` }}></span></span>
-      <button type="button" onClick=${stopScenario}>${t('scenario.stop')}</button>`
-    }</div>
+      <button type="button" onClick=${stopScenario}>${t('scenario.stop')}</button>`}</div>
     ${scenario.error && html`<p class="error">${scenario.error}</p>`}</section>`;
 }
 
@@ -181,10 +174,8 @@ function CompareResult({ scenario: { body, result } }) {
       class="number">${found.cost ? read(found) : ''}</td>`)}</tr>`;
   return html`<section class="section wide"><h3>${t('scenario.sideBySide')}</h3>
     <table id="compare-table">
-    <thead><tr><th scope="col"></th>${entries.map(
-      ([fleet]) => html`<th scope="col" class="number"
-      key=${fleet}>${fleet}</th>`,
-    )}</tr></thead>
+    <thead><tr><th scope="col"></th>${entries.map(([fleet]) => html`<th scope="col" class="number"
+      key=${fleet}>${fleet}</th>`)}</tr></thead>
     <tbody>
       <tr><th scope="row"><strong>${t('scenario.total')}</strong></th>${entries.map(
         ([fleet, { cost, error }]) => html`<td
@@ -207,12 +198,10 @@ function CompareResult({ scenario: { body, result } }) {
       ${line(t('scenario.unassigned'), ({ unassigned }) => number(unassigned, 0))}
       <tr><th scope="row"></th>${entries.map(
         ([fleet, { plan }]) => html`<td key=${fleet} class="number">
-        ${plan &&
-          html`<button type="button" aria-label=${t('scenario.showOf', { fleet })}
+        ${plan && html`<button type="button" aria-label=${t('scenario.showOf', { fleet })}
           onClick=${() =>
             showScenarioPlan({ ...body.base, fleet: body.fleets[fleet] }, plan, fleet)}>
-            ${t('scenario.show')}</button>`
-        }
+            ${t('scenario.show')}</button>`}
       </td>`,
       )}</tr>
     </tbody></table></section>`;

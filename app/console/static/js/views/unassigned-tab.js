@@ -37,9 +37,8 @@ export function UnassignedTab() {
     ${summary.must_unserved > 0 && html`<p>${t('unassigned.must', {
       count: summary.must_unserved,
     })}</p>`}
-    ${groups.map(
-      (group) => html`<${Group} key=${group.key} group=${group} entry=${entry} />`,
-    )}</section>`;
+    ${groups.map((group) => html`<${Group} key=${group.key} group=${group}
+      entry=${entry} />`)}</section>`;
 }
 
 function Group({ group, entry }) {
@@ -56,7 +55,7 @@ function Group({ group, entry }) {
     return html`<section>${customers}${ways.length > 1 ? priced : price(group)}</section>`;
   }
   return html`<section class="group" data-group=${group.key}>
-    <h4>${t('customers.count', { count: members.length })}:
+    <h4>${t('unassigned.like', { count: members.length, name: members[0].customer.id })}:
       ${' '}${members[0].reason ? saidOf(members[0].reason) : t('unassigned.noReason')}</h4>
     ${priced}
     <details open=${members.length <= FEW}><summary>${members
@@ -85,10 +84,8 @@ function Price({ group, entry }) {
     price,
     group,
   )}</span>
-    ${!price &&
-      html`<button type="button" onClick=${() => priceGroup(entry, group)}>
-        ${t('unassigned.whatCosts')}</button>`
-    }
+    ${!price && html`<button type="button" onClick=${() => priceGroup(entry, group)}>
+        ${t('unassigned.whatCosts')}</button>`}
     ${group.members.length > 1 &&
       html`<button type="button" class="primary" disabled=${request !== entry.request}
       aria-label=${[t('unassigned.applyAllOf', {
@@ -117,13 +114,11 @@ function Unassigned({ customer, entry, request }) {
   return html`<article class="card" ...${linked(
     indexOf(entry), key, selection, hovered)}>
     <header><${SelectButton} of=${key}><strong>${customer.id}</strong></${SelectButton}></header>
-    <div class="inside">${customer.reasons.map(
-      (reason) => html`<div key=${reason.vehicle_type}>
+    <div class="inside">${customer.reasons.map((reason) => html`<div key=${reason.vehicle_type}>
       <p><strong>${reason.vehicle_type}</strong>: ${saidOf(reason)}</p>
       ${reason.remedies?.map((remedy) => html`<${Remedy} key=${remedy.text} remedy=${remedy}
         of=${[reason.vehicle_type, customer.id]} told=${entry.request} request=${request} />`)}
-    </div>`,
-    )}<${StopMoves} id=${name} /><${WhyHere} id=${name} /></div></article>`;
+    </div>`)}<${StopMoves} id=${name} /><${WhyHere} id=${name} /></div></article>`;
 }
 
 /** Return a remedy as a sentence without its full stop. */
@@ -139,10 +134,8 @@ function Remedy({ remedy, of, told, request }) {
     plan();
   };
   return html`<div class="buttons"><span>${sentenceOf(remedy, told)}.</span>
-    ${changed &&
-      html`<button type="button" onClick=${apply}
+    ${changed && html`<button type="button" onClick=${apply}
       aria-label=${[t('unassigned.applyOf', { remedy: remedyInWords(remedy, told) }), ...of]
         .join(', ')}>
-      ${t('unassigned.apply')}</button>`
-    }</div>`;
+      ${t('unassigned.apply')}</button>`}</div>`;
 }

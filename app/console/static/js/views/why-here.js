@@ -61,12 +61,10 @@ function Alternatives({ rows, id }) {
   return html`<table aria-label=${t('why.ask.insteadOf', { id })}><thead><tr>
       <th scope="col">${t('why.ask.instead')}</th>
       <th scope="col" class="number">${t('why.ask.costs')}</th></tr></thead>
-    <tbody>${rows.map(
-      (row) => html`<tr key=${row.key}>
+    <tbody>${rows.map((row) => html`<tr key=${row.key}>
       <th scope="row">${row.what} <span class="help">${row.where}</span>
         ${!row.feasible && html`<ul class="help">${row.reasons.map(
-          (reason) => html`<li key=${reason}>${reason}</li>`,
-        )}</ul>`}</th>
+          (reason) => html`<li key=${reason}>${reason}</li>`)}</ul>`}</th>
       <td class="number" title=${row.terms}>${
         row.feasible ? row.cost : t('why.ask.forbidden')}</td></tr>`,
     )}</tbody></table>`;

@@ -30,7 +30,7 @@ export function WindowFields({ customer, onApply }) {
         latest: times[2 * number + 1] ?? null,
       })));
   const input = (at, label) => html`<label>${label} <input type="text" size="6"
-    value=${text[at] ?? ''} placeholder=${at % 2 ? t('windows.never') : '0:00'}
+    value=${text[at] ?? ''} placeholder=${t(`windows.${at % 2 ? 'never' : 'atOnce'}`)}
     aria-invalid=${Boolean(isWrong[at])}
     onKeyDown=${(event) => event.key === 'Enter' && !isWrong.includes(true) && apply()}
     onInput=${({ target }) =>
