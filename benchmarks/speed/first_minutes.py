@@ -116,14 +116,9 @@ def print_sheets(watch: Stopwatch, page: Page, folder: Path) -> None:
     page.pdf(path=folder / "driver-sheets.pdf")
 
 
-def run(page: Page, address: str, folder: Path, pictures: Path | None) -> Stopwatch:
+def run(page: Page, address: str, folder: Path) -> Stopwatch:
     """Do it all once."""
     watch = Stopwatch(page)
-
-    def picture(name: str) -> None:
-        if pictures is not None:
-            page.screenshot(path=pictures / f"{name}.png", animations="disabled")
-
     with watch.step("open the page"):
         page.goto(address)
         expect(page.locator("#total-cost")).to_be_visible()
@@ -132,36 +127,28 @@ def run(page: Page, address: str, folder: Path, pictures: Path | None) -> Stopwa
         page.locator("#file-input").set_input_files(
             {"name": "touren.csv", "mimeType": "text/csv", "buffer": sheet()})
         expect(page.locator("#use-import")).to_be_visible()
-    picture("first-opened")
     with watch.step("look it over, state depot and fleet"):
         look_over(watch, page)
-    picture("import")
     with watch.step("plan and look at the plan"):
         plan(watch, page)
-    picture("first-planned")
     with watch.step("print the drivers' sheets"):
         print_sheets(watch, page, folder)
-    page.emulate_media(media="print")
-    picture("first-sheet")
     return watch
 
 
-def main(folder: Path = Path("."), pictures: Path | None = None) -> None:
+def main(folder: Path = Path(".")) -> None:
     """Print the seconds of each step, the page's own and a person's.
 
     Parameters
     ----------
     folder
         Where `driver-sheets.pdf` is written.
-    pictures
-        Where pictures are written of the file as it was read, of the import, the plan and a
-        driver's sheet; none without it.
     """
     expect.set_options(timeout=WAIT_MS)
     with service() as address, browser() as chromium:
         page = chromium.new_page(viewport=SIZE)
         page.set_default_timeout(WAIT_MS)
-        watch = run(page, address, folder, pictures)
+        watch = run(page, address, folder)
         served = page.locator(".result-line").inner_text()
     for name, (seconds, person) in watch.seconds.items():
         print(f"{name}: {seconds:.1f} s, of which {person:.1f} s a person's")

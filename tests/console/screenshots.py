@@ -1,7 +1,6 @@
 """Makes the pictures of the console in `docs/screenshots`.
 
-Run as `python -m tests.console.screenshots`, with names of pictures behind it for these alone. That
-of an import is made by `python -m benchmarks.speed.first_minutes --pictures docs/screenshots`.
+Run as `python -m tests.console.screenshots`, with names of pictures behind it for these alone.
 """
 
 import sys
@@ -11,6 +10,7 @@ from tempfile import TemporaryDirectory
 
 from playwright.sync_api import Browser, Page, expect
 
+from benchmarks.speed.first_minutes import FLEET, NUM_CUSTOMERS, sheet
 from tests.console.serving import ROOT, WAIT_MS, chromium, new_context, serving
 from tests.console.steps import idle, open_example, open_tab, place_of, planned
 
@@ -49,7 +49,7 @@ def sweep(page: Page) -> None:
     page.get_by_label("Values of axis 2").fill("100, 110, 150, 200")
     page.get_by_role("button", name="Sweep 20 scenarios").click()
     expect(page.locator("#scenario-state")).to_contain_text("done")
-    page.locator("#heat-map").scroll_into_view_if_needed()
+    page.locator("#heat-map").evaluate("each => each.scrollIntoView({ block: 'end' })")
 
 
 def playing(page: Page) -> None:
@@ -71,6 +71,36 @@ def replanning(page: Page) -> None:
     page.locator(".panel").get_by_role("button", name="Plan on").focus()
 
 
+def importing(page: Page) -> None:
+    """A spreadsheet of sixty deliveries as it was read, depot and fleet stated."""
+    page.locator("#file-input").set_input_files(
+        {"name": "touren.csv", "mimeType": "text/csv", "buffer": sheet()})
+    for name, text in FLEET.items():
+        page.locator(f"#import-{name}").fill(text)
+        page.keyboard.press("Tab")
+    expect(page.locator(".import")).to_have_attribute("aria-busy", "false")
+    expect(page.locator("#use-import")).to_be_enabled()
+    page.evaluate("document.activeElement.blur()")
+
+
+def first_planned(page: Page) -> None:
+    """The plan of the spreadsheet."""
+    importing(page)
+    page.locator("#use-import").click()
+    planned(page, f"of {NUM_CUSTOMERS} served")
+
+
+def first_sheet(page: Page) -> None:
+    """The sheet of its first driver."""
+    first_planned(page)
+    page.evaluate("window.print = () => {}")  # nobody is there to answer a dialog
+    page.locator("#room-export").click()
+    page.get_by_role("button", name="Print all driver sheets").click()
+    expect(page.locator(".sheet-page").first).to_be_attached()
+    page.emulate_media(media="print")
+    page.add_style_tag(content="body { padding: 24px }")  # as paper has
+
+
 def phone(page: Page) -> None:
     """As on a phone."""
     idle(page)
@@ -83,6 +113,9 @@ VIEWS: dict[str, tuple[Callable[[Page], None], dict[str, int], str]] = {
     "replanning": (replanning, DESK, "light"),
     "sweep": (sweep, DESK, "light"),
     "playing": (playing, DESK, "light"),
+    "import": (importing, DESK, "light"),
+    "first-planned": (first_planned, DESK, "light"),
+    "first-sheet": (first_sheet, DESK, "light"),
     "phone": (phone, PHONE, "light"),
 }
 
@@ -90,7 +123,8 @@ VIEWS: dict[str, tuple[Callable[[Page], None], dict[str, int], str]] = {
 def take(browser: Browser, address: str, name: str) -> None:
     """Write the picture of one view."""
     prepare, size, scheme = VIEWS[name]
-    context = new_context(browser, viewport=size, color_scheme=scheme)
+    # Irish English, for sums in euros.
+    context = new_context(browser, viewport=size, color_scheme=scheme, locale="en-IE")
     page = context.new_page()
     page.goto(address)
     expect(page.locator("#total-cost")).to_be_visible()
