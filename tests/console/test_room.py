@@ -69,6 +69,9 @@ def test_a_hint_on_an_empty_map_is_beside_the_panel(page: Page) -> None:
     [[left, *_]] = page.evaluate(BOXES, ".map-note")
     [[_, _, right, _]] = page.evaluate(BOXES, ".panel")
     assert left >= right
+    page.locator(".panel").get_by_role("button", name="Open").click()
+    expect(page.get_by_role("button", name="Open a file")).to_be_visible()
+    page.keyboard.press("Escape")
 
 
 def test_long_names_wrap_and_leave_room_for_figures(page: Page) -> None:

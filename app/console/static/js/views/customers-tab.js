@@ -77,7 +77,9 @@ function CustomerTable({ request }) {
           selected=${selection === `c:${customer.id}`}
           marked=${hovered === `c:${customer.id}`} pick=${html`<${Pick} id=${customer.id}
             picked=${picked} setPicked=${setPicked} />`} />`} />
-    ${!request.customers.length && html`<p class="help">${t('customers.none')}</p>`}
+    ${!request.customers.length && html`<p class="help">${t('customers.none')}</p>
+      <div class="buttons"><button type="button" class="primary" popovertarget="open-menu">
+        ${t('header.open')}</button></div>`}
   </section>`;
 }
 
