@@ -103,7 +103,7 @@ def first_sheet(page: Page) -> None:
 
 def phone(page: Page) -> None:
     """As on a phone."""
-    idle(page)
+    overview(page)
 
 
 VIEWS: dict[str, tuple[Callable[[Page], None], dict[str, int], str]] = {

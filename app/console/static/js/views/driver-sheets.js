@@ -78,7 +78,8 @@ function place({ location, source }, isGeographic) {
   const { address, ...told } = source?.info ?? {};
   const where = [address, location && pointText(location, { isGeographic })].filter(Boolean);
   return html`${where.map((text) => html`<br key=${text} /><small>${text}</small>`)}
-    ${Object.entries(told).map(([name, text]) => html`<div key=${name}><small>${carriedInWords(name)}:</small> ${text}</div>`)}`;
+    ${Object.entries(told).map(([name, text]) => html`<div key=${name}><small>${
+      carriedInWords(name)}:</small> ${text}</div>`)}`;
 }
 
 /** Return what the driver does with drones at a stop. */
