@@ -14,6 +14,7 @@ from app.requests.reading import read_request
 from app.schemas.errors import InvalidRequestError, RequestError
 from app.schemas.response import PlanReply
 from model.planner import Planner
+from tests.seeds import often
 
 Container = dict[str, Any] | list[Any]
 
@@ -90,7 +91,7 @@ def test_mutated_requests_are_planned_or_refused(planner: Planner, rich: dict[st
     rich["coordinate_system"] = coordinate_system
     rng = random.Random(7)
     outcomes = {"planned": 0, "refused": 0}
-    for _ in range(400):
+    for _ in range(often(400)):
         body = json.dumps(_mutated(rich, rng)).encode()
         try:
             reply = PlanService(planner).reply_to(read_request(body, planner.policies), 0.0)
@@ -99,14 +100,14 @@ def test_mutated_requests_are_planned_or_refused(planner: Planner, rich: dict[st
         else:
             PlanReply.model_validate_json(reply)
             outcomes["planned"] += 1
-    assert sum(outcomes.values()) == 400
-    assert min(outcomes.values()) > 50
+    assert sum(outcomes.values()) == often(400)
+    assert min(outcomes.values()) > often(50)
 
 
 def test_mutated_bytes_are_planned_or_refused(planner: Planner, rich: dict[str, Any]) -> None:
     rng = random.Random(8)
     original = json.dumps(rich).encode()
-    for _ in range(300):
+    for _ in range(often(300)):
         body = bytearray(original)
         for _ in range(rng.randint(1, 4)):
             start = rng.randrange(len(body))

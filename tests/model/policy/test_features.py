@@ -18,6 +18,7 @@ from model.simulation.actions import DRIVE, OPEN, RETURN, apply, encode_action
 from tests.conftest import MINUTE
 from tests.model.rollouts import Batch, Units, in_other_units, random_problems, roll
 from tests.model.tiny import draw_tiny, with_energy
+from tests.seeds import often
 from training.instances import ALL, generate
 
 pytestmark = pytest.mark.slow
@@ -33,7 +34,7 @@ SIGNED_STATE = {"spare_reserve"}  # the capacity left may fall short of the dema
 
 @pytest.fixture(scope="module")
 def problems() -> list[Problem]:
-    return random_problems(seed=33, count=160, variants=ALL)
+    return random_problems(seed=33, count=often(160), variants=ALL)
 
 
 @pytest.fixture(scope="module")

@@ -8,6 +8,7 @@ from model.policy.keeping import LEAST_ANEW, MOST_ANEW, MOST_ANEW_GREEDILY, part
 from model.problem import IntArray
 from model.simulation.actions import DRIVE, LAUNCH, NUM_KINDS, OPEN, apply, reset
 from tests.model.rollouts import legal, random_problems, roll
+from tests.seeds import often
 
 
 def is_service(action: int) -> bool:
@@ -32,7 +33,7 @@ def services(actions: IntArray) -> int:
 
 def test_what_is_kept_is_legal_from_the_first_action_on() -> None:
     rng = np.random.default_rng(4)
-    problems = random_problems(17, 60)
+    problems = random_problems(17, often(60))
     for problem, rollout in zip(problems, roll(problems, 5).rollouts, strict=True):
         instance = pack([problem])
         for _ in range(5):

@@ -83,7 +83,7 @@ def walk(problem: Problem, rng: np.random.Generator) -> Iterator[tuple[list[int]
 
 
 def test_random_rollouts_pass_the_checker_at_the_cost_it_finds() -> None:
-    problems = random_problems(seed=17, count=400)
+    problems = random_problems(seed=17, count=often(400))
     for first in range(0, len(problems), 50):
         group = problems[first : first + 50]
         for problem, rollout in zip(group, roll(group, seed=first).rollouts, strict=True):
@@ -309,13 +309,13 @@ def test_rollouts_count_what_leaving_out_each_customer_costs() -> None:
 
 
 def test_random_rollouts_use_every_kind_of_action() -> None:
-    kinds = Counter(code % NUM_KINDS for problem in random_problems(seed=18, count=160)
+    kinds = Counter(code % NUM_KINDS for problem in random_problems(seed=18, count=often(160))
                     for code in roll([problem], seed=1).rollouts[0].actions)
     assert min(kinds[kind] for kind in (DRIVE, LAUNCH, RETURN, OPEN)) > often(50)
 
 
 def test_a_trip_under_way_may_always_return() -> None:
-    for problem in random_problems(seed=19, count=300):
+    for problem in random_problems(seed=19, count=often(300)):
         is_under_way = False
         for step in roll([problem], seed=2).rollouts[0].steps:
             assert is_under_way == (RETURN in [code % NUM_KINDS for code in step.codes])

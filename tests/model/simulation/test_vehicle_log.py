@@ -89,7 +89,7 @@ def test_no_other_departure_shortens_the_working_duration_without_lateness() -> 
 
 
 def test_leaving_later_is_never_worse_with_drones_and_rush_hours() -> None:
-    problems = random_problems(seed=41, count=300)
+    problems = random_problems(seed=41, count=often(300))
     problems += [draw_tiny(np.random.default_rng(seed), 0.7) for seed in seeds(250)]
     for seed, problem in enumerate(problems):
         for route, decision in planned(problem, seed):
