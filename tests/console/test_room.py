@@ -74,14 +74,18 @@ def test_a_hint_on_an_empty_map_is_beside_the_panel(page: Page) -> None:
     page.keyboard.press("Escape")
 
 
-def test_long_names_wrap_and_leave_room_for_figures(page: Page) -> None:
+def test_long_names_wrap_and_leave_room_for_figures(
+        open_page: Callable[..., Page], service: str) -> None:
     request = example("berlin")
     for customer in request["customers"]:
         customer["id"] = f"Apotheke am Platz {customer['id']}, Hintereingang"
         customer["time_window"] = {"latest": 30600, "late_cost_per_hour": 20}
     request["fleet"][0]["names"] = ["Sprinter Kühlfahrzeug (Frau Wischnewski)"]
+    # In German, whose headings are longer.
+    page = open_page(service, locale="de")
+    idle(page)
     open_file(page, "Long names of a tour on a Monday.json", json.dumps(request))
-    planned(page, "40 of 40 served")
+    planned(page, "40 von 40 bedient")
     open_tab(page, "routes")
     assert state(page, "state.plans.0.plan.cost.lateness") > 0
     for width in (1440, 1024):
@@ -89,6 +93,8 @@ def test_long_names_wrap_and_leave_room_for_figures(page: Page) -> None:
         [[_, _, right, _], *_] = page.evaluate(BOXES, ".panel details.card")
         cells = page.evaluate(BOXES, ".trip-stops :is(th, td)")
         assert max(cell[2] for cell in cells) <= right
+        names = page.evaluate(BOXES, ".trip-stops tbody th")
+        assert min(name[2] - name[0] for name in names) >= 120
     page.set_viewport_size(PHONE)
     cut = page.locator(".result-line").evaluate("each => each.scrollWidth > each.clientWidth")
     assert not cut

@@ -123,8 +123,8 @@ function Trip({ index, trip }) {
           ? [t('routes.energy', { energy: number(reply.energy_wh, 1) })]
           : []),
       ].join(', ')}</span></h4>
-    <table class="trip-stops"><thead><tr><th scope="col">${t('routes.stop')}</th>
-      <th scope="col">${t('about.arrival')}</th>
+    <table class="trip-stops" data-late=${columns.late && columns.window}><thead><tr>
+      <th scope="col">${t('routes.stop')}</th><th scope="col">${t('about.arrival')}</th>
       ${columns.window && html`<th scope="col">${t('about.window')}</th>`}
       ${columns.late && html`<th scope="col">${t('routes.late')}</th>`}
       <th scope="col" class="number">${t('about.loaded')}</th></tr></thead>
