@@ -114,7 +114,7 @@ def test_search_begins_anew_as_often_as_there_is_time(
 ) -> None:
     problem = with_drones(generate(np.random.default_rng(9), 10, variant), drones)
     nobody = Solution((), tuple(range(problem.num_depots, problem.num_nodes)))
-    for count in (1, 2, 30):
+    for count in (1, 2, starting.most + 6):
         begins.clear()
         turns = int((count + 0.5) * starting.turns / starting.share) * 10 * threads
         found = improve(problem, pack([problem]), nobody,
