@@ -17,6 +17,7 @@ def two_trips(smallest: Request) -> Request:
     smallest["customers"] = [{"id": name, "location": [0, 1], "demand": [1]} for name in "AB"]
     smallest["fleet"][0] |= {"id": "van", "count": 1, "capacity": [1], "max_trips": 2,
                              "speed_kmh": 60, "max_distance": 4000, "max_trip_distance": 2500}
+    smallest["options"] = {"search_iterations": 100, "time_limit": 60}
     return smallest
 
 

@@ -135,6 +135,7 @@ def test_how_long_legs_are_hangs_on_when_they_are_driven(service: httpx.Client,
                               "time_window": {"latest": 3000}}]
     smallest["fleet"][0] |= {"speed_kmh": 60, "max_travel_duration": 1000, "speed_profile": [
         {"from": 0, "speed_kmh": 30}, {"from": 3600, "speed_kmh": 60}]}
+    smallest["options"] = {"search_iterations": 100, "time_limit": 60}
     left, = planned(service, smallest)["unassigned"]
     assert {(reason["code"], reason["remedy"]) for reason in left["reasons"]} == {
         ("TRAVEL_DURATION", "fits if truck could travel 3.4 minutes longer")}
