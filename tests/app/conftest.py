@@ -219,7 +219,7 @@ def searching() -> Iterator[httpx.Client]:
         yield ready(client)
 
 
-@pytest.fixture(scope="module")
+@pytest.fixture(scope="session")
 def service() -> Iterator[httpx.Client]:
     """Return a client of a service that plans by the policies trained, and searches."""
     settings = Settings()
