@@ -1,6 +1,5 @@
 """What a customer is told of a day, by the link of one order alone."""
 
-from collections.abc import Iterator
 from typing import Any
 
 import httpx
@@ -8,22 +7,12 @@ import pytest
 from itsdangerous import URLSafeSerializer
 
 from app.records.days.schemas import CustomerLinksReply, VisitStatusReply
-from app.serving.settings import Settings
-from tests.app.conftest import SearchingPlanner, ready, serving
 from tests.app.records.days.living import PROBLEM, begun, clock, order, plan_of, told
 from tests.app.records.dispatches.days import holding, token_of
 
 pytestmark = pytest.mark.slow
 
 START = "2026-06-01T08:00:00+02:00"
-
-
-@pytest.fixture(scope="module")
-def service(tmp_path_factory: pytest.TempPathFactory) -> Iterator[httpx.Client]:
-    """Return a client of a service with a database of this module's own."""
-    settings = Settings(data_dir=tmp_path_factory.mktemp("customers"), drain_seconds=0, role="api")
-    with serving(SearchingPlanner(), settings) as client:
-        yield ready(client)
 
 
 def links(service: httpx.Client, day: str) -> dict[str, str]:

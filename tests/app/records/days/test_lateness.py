@@ -1,13 +1,10 @@
 """Who is late before it is too late: ranges of arrivals, chances, and where vehicles are."""
 
-from collections.abc import Iterator
 from typing import Any
 
 import httpx
 import pytest
 
-from app.serving.settings import Settings
-from tests.app.conftest import SearchingPlanner, ready, serving
 from tests.app.records.days.living import (
     PROBLEM, begun, clock, followed, order, plan_of, standing, told,
 )
@@ -22,14 +19,6 @@ FAR: Data = {**PROBLEM, "customers": [
      "time_window": {"latest": 1900}}],
     "fleet": [{**PROBLEM["fleet"][0], "count": 1}]}
 """Two orders ahead of one van: 600 s to the first, 600 s to the second."""
-
-
-@pytest.fixture(scope="module")
-def service(tmp_path_factory: pytest.TempPathFactory) -> Iterator[httpx.Client]:
-    """Return a client of a service with a database of this module's own."""
-    settings = Settings(data_dir=tmp_path_factory.mktemp("late"), drain_seconds=0, role="api")
-    with serving(SearchingPlanner(), settings) as client:
-        yield ready(client)
 
 
 def about(service: httpx.Client, day: str, kind: str, name: str = "") -> list[Data]:

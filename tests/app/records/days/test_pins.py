@@ -1,6 +1,5 @@
 """What a dispatcher settles by hand, in the plans of a day."""
 
-from collections.abc import Iterator
 from typing import Any
 
 import httpx
@@ -9,9 +8,7 @@ import pytest
 from app.records.days.fold import Pin, fold
 from app.records.days.rows import Begun, DayTerms, LoggedEvent
 from app.records.days.schemas import PinReply
-from app.serving.settings import Settings
 from model.problem import MOST_RELATIONS
-from tests.app.conftest import SearchingPlanner, ready, serving
 from tests.app.records.days.living import (
     PROBLEM, begun, clock, order, plan_of, served_by, standing, told,
 )
@@ -21,14 +18,6 @@ ROOMY = PROBLEM | {"fleet": [{**PROBLEM["fleet"][0], "capacity": [9]}],
                    "options": {"search_iterations": 1000}}
 UNHURRIED = {"plan_within": 60.0}
 """Plans end by their turns, however busy the machine is."""
-
-
-@pytest.fixture(scope="module")
-def service(tmp_path_factory: pytest.TempPathFactory) -> Iterator[httpx.Client]:
-    """Return a client of a service with a database of this module's own."""
-    settings = Settings(data_dir=tmp_path_factory.mktemp("pins"), drain_seconds=0, role="api")
-    with serving(SearchingPlanner(), settings) as client:
-        yield ready(client)
 
 
 def pin(name: str, vehicle: str, **more: Any) -> dict[str, Any]:

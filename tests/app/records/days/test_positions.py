@@ -1,15 +1,12 @@
 """Where vehicles are, as their drivers' phones tell it."""
 
 import uuid
-from collections.abc import Iterator
 from datetime import UTC, datetime, timedelta
 from typing import Any
 
 import httpx
 import pytest
 
-from app.serving.settings import Settings
-from tests.app.conftest import SearchingPlanner, ready, serving
 from tests.app.records.days.living import PROBLEM, begun, planned, standing
 from tests.app.records.dispatches.days import holding, token_of
 
@@ -19,14 +16,6 @@ MUNICH: dict[str, Any] = {
     "coordinate_system": "geographic", "fleet": [{**PROBLEM["fleet"][0], "count": 1}],
     "depots": [{"id": "hub", "location": [11.5, 48.1]}],
     "customers": [{"id": "A", "location": [11.6, 48.1], "demand": [1]}]}
-
-
-@pytest.fixture(scope="module")
-def service(tmp_path_factory: pytest.TempPathFactory) -> Iterator[httpx.Client]:
-    """Return a client of a service with a database of this module's own."""
-    settings = Settings(data_dir=tmp_path_factory.mktemp("seen"), drain_seconds=0, role="api")
-    with serving(SearchingPlanner(), settings) as client:
-        yield ready(client)
 
 
 def day_on_the_road(client: httpx.Client, problem: dict[str, Any]) -> tuple[str, dict[str, str]]:

@@ -2,7 +2,6 @@
 
 import random
 import threading
-from collections.abc import Iterator
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import suppress
 from typing import Any
@@ -13,8 +12,6 @@ import pytest
 from app.records.days import quoting
 from app.records.days.store import DayStore
 from app.schemas.quote import QuoteReply
-from app.serving.settings import Settings
-from tests.app.conftest import SearchingPlanner, ready, serving
 from tests.app.records.days.living import (
     PROBLEM, Data, begun, clock, order, plan_of, planned, served_by, standing, told,
 )
@@ -27,14 +24,6 @@ NEW = order("N", 1, 2)["customer"]
 SLOTS: list[Data] = [
     {"earliest": 0, "latest": 400}, {"earliest": 400, "latest": 900, "by": "truck"},
     {"earliest": 900}, {"earliest": 0, "latest": 100}, {"by": "drone"}]
-
-
-@pytest.fixture(scope="module")
-def service(tmp_path_factory: pytest.TempPathFactory) -> Iterator[httpx.Client]:
-    """Return a client of a service with a database of this module's own."""
-    settings = Settings(data_dir=tmp_path_factory.mktemp("quotes"), drain_seconds=0, role="api")
-    with serving(SearchingPlanner(), settings) as client:
-        yield ready(client)
 
 
 def quoted(client: httpx.Client, day: str, slots: list[Data] = SLOTS,

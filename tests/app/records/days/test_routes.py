@@ -1,7 +1,6 @@
 """Days told over HTTP, and the plans that follow."""
 
 import time
-from collections.abc import Iterator
 from concurrent.futures import ThreadPoolExecutor
 from datetime import UTC, datetime, timedelta
 from typing import Any
@@ -10,22 +9,12 @@ import httpx
 import pytest
 
 from app.records.dispatches.schemas import DriverDay
-from app.serving.settings import Settings
-from tests.app.conftest import SearchingPlanner, ready, serving
 from tests.app.records.days.living import (
     PROBLEM, begun, clock, followed, order, plan_of, planned, served_by, standing, told,
 )
 from tests.app.records.dispatches.days import event, holding, token_of
 
 pytestmark = pytest.mark.slow
-
-
-@pytest.fixture(scope="module")
-def service(tmp_path_factory: pytest.TempPathFactory) -> Iterator[httpx.Client]:
-    """Return a client of a service with a database of this module's own."""
-    settings = Settings(data_dir=tmp_path_factory.mktemp("days"), drain_seconds=0, role="api")
-    with serving(SearchingPlanner(), settings) as client:
-        yield ready(client)
 
 
 def test_orders_come_in_and_are_cancelled(service: httpx.Client) -> None:
