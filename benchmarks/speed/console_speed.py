@@ -17,7 +17,7 @@ from itertools import pairwise
 import typer
 from playwright.sync_api import Browser, Page, sync_playwright
 
-from benchmarks.many import many_customers, swept_reply
+from examples.many import many_customers, swept_reply
 from benchmarks.speed.latency import service
 
 WAIT_MS = 30_000

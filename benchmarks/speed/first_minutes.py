@@ -6,7 +6,6 @@ read, states depot and fleet, plans, looks at the plan, and prints a sheet for e
 and eyes take the time that `PAUSES` and `SECONDS_PER_KEY` state, beside what the page takes.
 """
 
-import random
 import time
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -17,6 +16,7 @@ from playwright.sync_api import Page, ViewportSize, expect
 
 from benchmarks.speed.console_speed import browser
 from benchmarks.speed.latency import service
+from examples.deliveries import FLEET, NUM_CUSTOMERS, sheet
 
 WAIT_MS = 120_000
 SIZE: ViewportSize = {"width": 1440, "height": 900}
@@ -25,33 +25,6 @@ SECONDS_PER_KEY = 0.2
 PAUSES = {"find the file": 5.0, "read how columns were taken": 15.0, "go to a field": 1.5,
           "look at the plan": 15.0, "find a button": 2.0}
 """Seconds that a person takes for what no computer speeds up."""
-
-FLEET = {"depot": "48.1402, 11.5600", "vehicles": "3", "capacity": "450", "shift": "7:00-17:00"}
-NUM_CUSTOMERS = 60
-HEADINGS = ("Kd.-Nr.;Kunde;Straße;PLZ;Ort;Breite;Länge;Gewicht (kg);von;bis;Entladezeit (Min);"
-            "Telefon;Hinweis")
-SHOPS = ("Bäckerei", "Café", "Apotheke", "Blumen", "Metzgerei", "Optik")
-NAMES = ("Huber", "Müller", "Wagner", "Brandl", "Schäffler", "Özdemir", "Lang", "Weiß", "Pichler",
-         "Groß")
-STREETS = ("Lindenstr.", "Bahnhofstr.", "Am Bach", "Ringstr.", "Kirchweg", "Schulstr.")
-
-
-def sheet() -> bytes:
-    """Return the spreadsheet, as a program of a German office exports it."""
-    rng = random.Random(7)
-    lines = ["Tour München", "", HEADINGS]
-    for number in range(NUM_CUSTOMERS):
-        opens = rng.choice((7.0, 8.0, 8.3, 9.0, 10.0))
-        cells = (
-            str(4711 + number), f"{SHOPS[number % 6]} {NAMES[number // 6]}",
-            f"{rng.choice(STREETS)} {rng.randrange(1, 90)}", str(80331 + rng.randrange(90)),
-            "München", f"{rng.gauss(48.14, 0.03):.4f}", f"{rng.gauss(11.57, 0.05):.4f}",
-            f"{rng.randrange(20, 300) / 10:.1f}", f"{opens:.2f}",
-            f"{opens + rng.choice((3, 4, 6)):.2f}", str(rng.choice((3, 5, 8))),
-            f"089 {rng.randrange(10_000, 99_999)}", "2x klingeln" if number % 9 == 0 else "")
-        lines.append(";".join(cell.replace(".", ",") if 5 <= at <= 7 else cell
-                              for at, cell in enumerate(cells)))
-    return "\n".join(lines).encode("cp1252")
 
 
 class Stopwatch:

@@ -18,7 +18,7 @@ import typer
 from app.requests.conversion.problem import to_problem
 from app.schemas.request import PlanRequest
 from benchmarks.clock import count_processor_time
-from benchmarks.many import mixed_customers
+from examples.many import mixed_customers
 from benchmarks.peers.answers import cost_of_all
 from benchmarks.results import gap_percent
 from benchmarks.rows import append_rows

@@ -15,7 +15,7 @@ from typing import Annotated, Any
 import httpx
 import typer
 
-from benchmarks.many import mixed_customers
+from examples.many import mixed_customers
 from benchmarks.speed.latency import service
 
 CLOSING_S = 600.0

@@ -38,7 +38,7 @@ def measured(number: int, is_planned: bool, turns: int = TURNS) -> Data:
     limits.MAX_CUSTOMERS = MOST_CUSTOMERS
     limits.MAX_LEGS = MOST_CUSTOMERS**2
     from app.serving.load.memory import collect_seldom
-    from benchmarks.many import many_customers
+    from examples.many import many_customers
 
     collect_seldom()
     body = to_json(many_customers(number))
@@ -59,7 +59,7 @@ def _steps(body: bytes, found: Data, is_planned: bool, turns: int) -> None:
     from app.requests.plan_reading import read_plan
     from app.requests.reading import read_request
     from app.requests.warnings.finding import warnings_of
-    from benchmarks.many import swept
+    from examples.many import swept
     from model.judge.check import check
     from model.judge.timing import RouteDecision, TripDecision, schedule
     from model.planner import Elapsed, PlanResult

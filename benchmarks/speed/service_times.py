@@ -4,7 +4,7 @@
 
 Processor seconds. Those of the database are PostgreSQL's own, while two workers wait and while they
 plan a job by regions; a worker's and a keeper's are of what they do with problems of several sizes,
-made by `benchmarks.many` and swept, not searched.
+made by `examples.many` and swept, not searched.
 """
 
 import argparse
@@ -28,7 +28,7 @@ from app.records.jobs.region_task import ERRANDS, Errand
 from app.requests.conversion.problem import to_problem
 from app.requests.reading import read_request
 from benchmarks.load.crashes import Service
-from benchmarks.many import many_customers, swept
+from examples.many import many_customers, swept
 from benchmarks.postgres import running_postgres
 from benchmarks.quality.regions import Job, request_of
 from model.judge.timing import RouteDecision, TripDecision, schedule

@@ -10,7 +10,7 @@ from tempfile import TemporaryDirectory
 
 from playwright.sync_api import Browser, Page, expect
 
-from benchmarks.speed.first_minutes import FLEET, NUM_CUSTOMERS, sheet
+from examples.deliveries import FLEET, NUM_CUSTOMERS, sheet
 from tests.console.serving import ROOT, WAIT_MS, chromium, new_context, serving
 from tests.console.steps import idle, open_example, open_tab, place_of, planned
 

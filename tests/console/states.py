@@ -16,8 +16,8 @@ from typing import Any
 import httpx
 from playwright.sync_api import Page, ViewportSize, expect
 
-from benchmarks.many import many_customers, swept_reply
-from benchmarks.speed.first_minutes import sheet
+from examples.many import many_customers, swept_reply
+from examples.deliveries import sheet
 from tests.app.records.days.living import begun, told
 from tests.conftest import PATIENCE
 from tests.console.serving import chromium, new_context, serving
