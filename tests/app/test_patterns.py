@@ -68,6 +68,7 @@ def patterns_in(value: object) -> Iterator[re.Pattern[Any]]:
             yield from patterns_in(held)
 
 
+@cache
 def patterns() -> dict[str, re.Pattern[Any]]:
     """Return the patterns of all modules, by where they are and what they are."""
     return {f"{module.__name__}.{name}: {pattern.pattern[:40]!r}": pattern
