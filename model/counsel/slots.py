@@ -4,6 +4,7 @@ A search of some milliseconds looks near him, others making room; where it finds
 judge calls legal, the cheapest places between others are judged.
 """
 
+import time
 from collections import Counter
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
@@ -13,6 +14,7 @@ from typing import NamedTuple
 from model.counsel.bench import MOST_LEGS, Bench, Drafted, Trial
 from model.counsel.fitting import Fit, find_fits, new_violations
 from model.counsel.priced import Offer, is_seen_by_search, offers_of
+from model.counsel.screening import share_over
 from model.judge.past import Vehicle
 from model.judge.places import Place, find_place
 from model.problem import MM_PER_KM, Customer, Problem
@@ -25,8 +27,13 @@ TRIED = 3
 """Places of a slot that are judged, the cheapest first, if the judge refuses the one before; and
 vehicles on whose routes it is looked why there is none."""
 
-TURNS, MOST_TURNS = 1000, 400
-"""Turns of the search for all slots together, more for dearer ones, and for one at most."""
+TURNS, MOST_TURNS, FEWEST_TURNS = 1000, 400, 50
+"""Turns of the search for all slots together, more for dearer ones; for one at most, and at least
+where the search doesn't see each place between others."""
+
+TRYING = 4.0
+"""Seconds in which places between others are tried for all slots where the search doesn't price
+them, or says that there is none: one of each slot is in any case."""
 
 AS_CHEAP = 0.005
 """A slot that costs at most so much more than the cheapest of all, by what the plan costs, isn't
@@ -72,25 +79,28 @@ def find_slots(bench: Bench, slots: Sequence[Customer],
     view
         The plan as the search sees it; None: it isn't asked.
     searches
-        Whether others may make room.
+        Whether others may make room. If not, each slot costs as the cheapest of `find_fits`.
     """
     benches = [bench.under(with_customers(bench.problem, {bench.last: slot})) for slot in slots]
+    until = time.perf_counter() + TRYING
     if view is None or not _is_searched(bench, view):
-        yield from map(_between, benches)
+        for number, each in enumerate(benches):
+            yield _between(each, share_over(1 / (len(benches) - number), until))
         return
     search = _SlotSearch(bench, view, slots)
     trials = search.trials(benches, TURNS if searches else 0)
-    for each, trial in zip(benches, trials, strict=True):
+    for number, (each, trial) in enumerate(zip(benches, trials, strict=True)):
         fit = None if trial is None else Fit(each, trial)
-        if not search.sees_all:
-            others = _between(each)
+        mine = share_over(1 / (len(benches) - number), until)
+        if not (search.prices_all and (searches or search.sees_all)):
+            others = _between(each, mine)
             fit = min([one for one in (fit, others) if one], key=lambda one: one.rank, default=None)
-        yield fit or _refused(each, view)
+        yield fit or _refused(each, view, mine)
 
 
-def _between(bench: Bench) -> Fit | None:
-    """Return the cheapest place between others, who stay where they are."""
-    return next(iter(find_fits(bench, 1).places), None)
+def _between(bench: Bench, until: float) -> Fit | None:
+    """Return the cheapest place between others, who stay where they are, found by an instant."""
+    return next(iter(find_fits(bench, 1, until).places), None)
 
 
 def _is_searched(bench: Bench, view: SearchedPlan) -> bool:
@@ -130,7 +140,9 @@ class _SlotSearch:
         problem = with_customers(view.problem, {
             view.node: replace(tightest, served_by="either")})
         self._search = OrderSearch(problem, view.solution, view.node)
-        self.sees_all = is_seen_by_search(problem) and not problem.fairness.is_stated
+        self.prices_all = not problem.fairness.is_stated
+        """Whether a place costs what the search says: the work of others counts in the judge's."""
+        self.sees_all = is_seen_by_search(problem)
         """Whether it sees each place between others."""
         self._node, self._without = bench.node, bench.without
         self._as_cheap = AS_CHEAP * abs(bench.without)
@@ -150,9 +162,10 @@ class _SlotSearch:
             between = offers[0].cost if offers else inf
             if cost < inf and self._more(slot) > least:
                 share = max(0.0, cost - least) / dearer if dearer else 0.0
-                self._look(benches[at], slot, min(MOST_TURNS, int(turns * share)), between)
-            if self.sees_all and (self._cheapest(slot) is None
-                                  or self._more(slot) > between + ALIKE):
+                few = FEWEST_TURNS if turns and not self.sees_all else 0
+                self._look(benches[at], slot, max(few, min(MOST_TURNS, int(turns * share))),
+                           between)
+            if self._cheapest(slot) is None or self._more(slot) > between + ALIKE:
                 self._keep(_judged(benches[at], self._view, offers))
         best = [self._cheapest(slot) for slot in self._slots]
         return [None if each is None else each.trial for each in best]
@@ -160,8 +173,7 @@ class _SlotSearch:
     def _asked(self, slot: Customer) -> tuple[float, list[Offer]]:
         """Return what a slot costs more at once, and its places on routes, the cheapest first."""
         cost = self._search.ask(slot)
-        offers = offers_of(self._search, self._view.solution, self._view.node
-                           ) if self.sees_all else []
+        offers = offers_of(self._search, self._view.solution, self._view.node)
         return min([cost, *[offer.cost for offer in offers[:1]]]), offers
 
     def _look(self, bench: Bench, slot: Customer, turns: int, between: float) -> None:
@@ -254,16 +266,16 @@ def _spare(bench: Bench, view: SearchedPlan) -> Iterator[tuple[Place, float]]:
             yield place, kind.fixed_cost + way * kind.cost_per_km / MM_PER_KM
 
 
-def _refused(bench: Bench, view: SearchedPlan) -> Fit | None:
+def _refused(bench: Bench, view: SearchedPlan, until: float) -> Fit | None:
     """Return a place that breaks few rules of those on the nearest routes, or a new one.
 
-    One broken rule is as few as there can be.
+    One broken rule is as few as there can be; after an instant the best so far will do.
     """
     best: Drafted | None = None
     for place in _likely(bench, view):
         draft = bench.draft(place)
         best = draft if best is None else min(best, draft, key=lambda each: each.rank)
-        if best.rank[0] <= 1:
+        if best.rank[0] <= 1 or time.perf_counter() >= until:
             break
     return None if best is None else Fit(bench, bench.finish(best))
 

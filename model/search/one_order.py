@@ -24,6 +24,10 @@ from model.solution import Route, Solution, renumbered
 FOREVER = 2**40
 """Turns for which the search stays near the order."""
 
+MISSED = 1000.0
+"""What leaving out the order, or one whom the plan serves, costs more, by what the plan costs: room
+is made by going elsewhere alone."""
+
 NEW = -1
 """Number of a vehicle that has none yet."""
 
@@ -54,6 +58,10 @@ class OrderSearch(PlacePrices):
         self._seed = self._room.rng.copy()
         self._without = float(self.searcher.value.cost) - problem.cost_of_leaving_out(
             problem.customer_at(node))
+        stays = [self._number, *[self.numbers[each] for each in Solution(solution.routes).served]]
+        self.laid.unassigned_more[stays] += MISSED * max(1.0, abs(self._without))
+        self.laid.must_serve[stays] = True
+        self._stays = frozenset(stays)
         self._temperature = COLD * leg_cost(self.laid, self.searcher)[0]
         self._can = self.laid.can[:, :, self._number].copy()
         self._flies = np.array([kind.flies for kind in problem.vehicle_types])
@@ -88,10 +96,10 @@ class OrderSearch(PlacePrices):
         return self._gone_on(turns, ANY)
 
     def _gone_on(self, turns: int, order: int) -> float:
-        """Return what the order costs more after some turns; infinite if it is left out."""
+        """Return what the order costs more after some turns; infinite if anybody is left out."""
         room = self._room
         anneal(self._data, room, turns, order)
-        if self._number in room.best_missing[:room.count.best_missing]:
+        if not self._stays.isdisjoint(room.best_missing[:room.count.best_missing].tolist()):
             return math.inf
         return float(room.value.best) - self._without
 

@@ -145,3 +145,27 @@ def test_who_waits_for_a_plan_has_a_place_before_others(
         reply = from_json(answer_quote(ReceivedBody(body, time.perf_counter()), UNBOUNDED,
                                        plans=plans, first=names))
         assert reply["best"] == best
+
+
+FLOWN = {"drones": DRONES}
+PAUSED = {"breaks": [{"id": "L", "duration": 300, "start": {"earliest": 600, "latest": 1800}}]}
+
+
+@pytest.mark.parametrize("rules", [FLOWN, PAUSED])
+@pytest.mark.parametrize("seed", seeds(8))
+def test_room_is_made_where_drones_fly_and_drivers_rest(
+        client: httpx.Client, seed: int, rules: Request) -> None:
+    draw = Random(seed)
+    problem = problem_of(draw)
+    for name in ("relations", "shipments"):
+        problem.pop(name, None)
+    problem["fleet"] = [problem["fleet"][0] | rules]
+    plan = planned(client, problem | {"options": {"search_iterations": 200, "time_limit": 60}})
+    body = from_json(asked_for(draw, problem, {
+        "routes": plan["routes"], "unassigned": plan["unassigned"]}, "N"))
+    searched = quoted(to_json(body))["slots"]
+    between = quoted(to_json(body | {"search": False}))["slots"]
+    assert [each["feasible"] for each in searched] == [each["feasible"] for each in between]
+    # The search may overlook a place at which nobody else moves, but hardly ever a much better one.
+    assert sum(each["cost"] or 0 for each in searched) <= 1.01 * sum(
+        each["cost"] or 0 for each in between)
