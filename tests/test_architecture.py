@@ -6,6 +6,7 @@ from collections.abc import Callable
 from functools import cache
 from graphlib import TopologicalSorter
 from pathlib import Path
+from typing import NamedTuple
 
 import pytest
 
@@ -37,34 +38,42 @@ BLOCKS = ("body", "orelse", "finalbody", "handlers", "cases")
 MAX_FILE_LINES, MAX_FUNCTION_LINES, MAX_ARROWS = 400, 40, 40
 
 
+class Source(NamedTuple):
+    """What is looked at of a file; all trees together would take a gigabyte."""
+
+    imports: frozenset[str]  # anywhere, `from a import b` as `a` and `a.b`
+    classes: tuple[str, ...]
+    functions: dict[str, int]  # lines of each but for its docstring
+
+
 @cache
-def sources() -> dict[str, ast.Module]:
+def sources() -> dict[str, Source]:
     """Return the packages' Python files by their dotted names."""
     paths = [path for package in PACKAGES for path in sorted((ROOT / package).rglob("*.py"))]
     return {".".join(path.relative_to(ROOT).with_suffix("").parts):
-            ast.parse(path.read_text("utf-8")) for path in paths}
+            read(path.read_text("utf-8")) for path in paths}
 
 
-@cache
-def statements(name: str) -> list[ast.AST]:
-    """Return the statements of a file, those within others too."""
-    found: list[ast.AST] = [sources()[name]]
-    for node in found:
-        found += [inner for block in BLOCKS for inner in getattr(node, block, ())]
-    return found
-
-
-@cache
-def imports(name: str) -> frozenset[str]:
-    """Return what a file imports anywhere, `from a import b` as `a` and `a.b`."""
-    found = set[str]()
-    for node in statements(name):
+def read(text: str) -> Source:
+    """Return what is looked at of a file, from its statements and those within others."""
+    imports, classes, functions = set[str](), list[str](), dict[str, int]()
+    statements: list[ast.AST] = [ast.parse(text)]
+    for node in statements:
+        statements += [inner for block in BLOCKS for inner in getattr(node, block, ())]
         if isinstance(node, ast.Import):
-            found |= {alias.name for alias in node.names}
+            imports |= {alias.name for alias in node.names}
         elif isinstance(node, ast.ImportFrom):
-            assert node.module is not None, f"{name} has a relative import"
-            found |= {node.module, *(f"{node.module}.{alias.name}" for alias in node.names)}
-    return frozenset(found)
+            imports |= {f"{node.module}", *(f"{node.module}.{each.name}" for each in node.names)}
+        elif isinstance(node, ast.ClassDef):
+            classes.append(node.name)
+        elif isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef):
+            body = node.body[ast.get_docstring(node) is not None:] or node.body
+            functions[f"{node.name}:{node.lineno}"] = (node.end_lineno or 0) - body[0].lineno
+    return Source(frozenset(imports), tuple(classes), functions)
+
+
+def imports(name: str) -> frozenset[str]:
+    return sources()[name].imports
 
 
 def arrows(package: str, part: Callable[[str], str]) -> dict[str, set[str]]:
@@ -91,6 +100,7 @@ def folder(name: str) -> str:
 def test_packages_import_along_the_arrows() -> None:
     for name in sources():
         package, packages = name.split(".")[0], {module.split(".")[0] for module in imports(name)}
+        assert "None" not in packages, f"{name} has a relative import"
         assert packages.isdisjoint(FORBIDDEN.get(package, ())), name
         assert "benchmarks" not in packages or "benchmarks" in name.split(".")[:2], name
 
@@ -121,20 +131,16 @@ def test_there_are_no_circles(package: str, part: Callable[[str], str]) -> None:
 
 def test_a_class_has_its_name_to_itself() -> None:
     homes = defaultdict[str, list[str]](list)
-    for name in sources():
-        if name.partition(".")[0] not in {"app", "model", "training"}:
-            continue
-        for node in statements(name):
-            if isinstance(node, ast.ClassDef) and not node.name.startswith("_"):
-                homes[node.name].append(name)
+    for name, source in sources().items():
+        for each in source.classes:
+            if name.partition(".")[0] in {"app", "model", "training"} and not each.startswith("_"):
+                homes[each].append(name)
     assert {name: files for name, files in homes.items() if len(files) > 1} == {}
 
 
 def test_files_and_functions_are_short_and_finished() -> None:
-    for name in sources():
+    for name, source in sources().items():
         text = (ROOT / f"{name.replace('.', '/')}.py").read_text("utf-8")
         assert (text.count("\n") <= MAX_FILE_LINES, "TO" "DO" in text) == (True, False), name
-        for node in statements(name):
-            if isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef):
-                body = node.body[ast.get_docstring(node) is not None:] or node.body
-                assert (node.end_lineno or 0) - body[0].lineno < MAX_FUNCTION_LINES, name
+        assert [each for each, lines in source.functions.items()
+                if lines >= MAX_FUNCTION_LINES] == [], name
