@@ -5,11 +5,15 @@ import hashlib
 from collections.abc import Mapping
 from functools import cached_property
 
+import brotli
 from starlette.datastructures import Headers
 from starlette.responses import Response
 
 LEAST_COMPRESSED = 1000
 """Bytes below which it isn't worth the while."""
+
+QUALITY = 9
+"""Of Brotli. 11 takes nine times as long for a twelfth less."""
 
 BINARY = ("image/png", "font/", "application/vnd.", "application/octet-stream")
 
@@ -27,10 +31,13 @@ class Text:
         return f'W/"{hashlib.sha256(self.content).hexdigest()[:16]}"'
 
     @cached_property
-    def compressed(self) -> bytes | None:
-        """The content as gzip; None where that saves nothing."""
-        if len(self.content) < LEAST_COMPRESSED or self.media_type.startswith(BINARY):
-            return None
+    def by_brotli(self) -> bytes:
+        """The content by Brotli, which browsers take over TLS."""
+        return bytes(brotli.compress(self.content, quality=QUALITY))
+
+    @cached_property
+    def by_gzip(self) -> bytes:
+        """The content by gzip."""
         return gzip.compress(self.content, mtime=0)
 
     def reply(self, asked: Headers, headers: Mapping[str, str]) -> Response:
@@ -38,7 +45,10 @@ class Text:
         own = {"ETag": self.etag, "Vary": "Accept-Encoding", **headers}
         if self.etag in asked.get("if-none-match", ""):
             return Response(status_code=304, headers=own)
-        if "gzip" in asked.get("accept-encoding", "") and self.compressed is not None:
-            return Response(self.compressed, media_type=self.media_type,
-                            headers=own | {"Content-Encoding": "gzip"})
-        return Response(self.content, media_type=self.media_type, headers=own)
+        content, taken = self.content, asked.get("accept-encoding", "")
+        if len(content) >= LEAST_COMPRESSED and not self.media_type.startswith(BINARY):
+            if "br" in taken:
+                content, own["Content-Encoding"] = self.by_brotli, "br"
+            elif "gzip" in taken:
+                content, own["Content-Encoding"] = self.by_gzip, "gzip"
+        return Response(content, media_type=self.media_type, headers=own)
