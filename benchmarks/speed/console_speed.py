@@ -78,7 +78,8 @@ def browser() -> Iterator[Browser]:
     RuntimeError
         If there is none.
     """
-    path = os.environ.get("CHROMIUM") or shutil.which("chromium")
+    path = (os.environ.get("CHROMIUM") or shutil.which("chromium")
+            or shutil.which("chromium-headless-shell"))
     if path is None:
         raise RuntimeError("there is no Chromium: apt-get install chromium")
     with sync_playwright() as playwright:
