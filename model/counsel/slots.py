@@ -87,12 +87,12 @@ def find_slots(bench: Bench, slots: Sequence[Customer],
         for number, each in enumerate(benches):
             yield _between(each, share_over(1 / (len(benches) - number), until))
         return
-    search = _SlotSearch(bench, view, slots)
-    trials = search.trials(benches, TURNS if searches else 0)
+    search = _SlotSearch(bench, view, slots, TURNS if searches else 0)
+    trials = search.trials(benches)
     for number, (each, trial) in enumerate(zip(benches, trials, strict=True)):
         fit = None if trial is None else Fit(each, trial)
         mine = share_over(1 / (len(benches) - number), until)
-        if not (search.prices_all and (searches or search.sees_all)):
+        if not search.prices:
             others = _between(each, mine)
             fit = min([one for one in (fit, others) if one], key=lambda one: one.rank, default=None)
         yield fit or _refused(each, view, mine)
@@ -132,7 +132,8 @@ class _Found(NamedTuple):
 class _SlotSearch:
     """Plans with a customer in one slot after another."""
 
-    def __init__(self, bench: Bench, view: SearchedPlan, slots: Sequence[Customer]) -> None:
+    def __init__(self, bench: Bench, view: SearchedPlan, slots: Sequence[Customer],
+                 turns: int) -> None:
         self._view = view
         self._slots = slots
         # What limits anybody is found out when the search is opened.
@@ -140,16 +141,18 @@ class _SlotSearch:
         problem = with_customers(view.problem, {
             view.node: replace(tightest, served_by="either")})
         self._search = OrderSearch(problem, view.solution, view.node)
-        self.prices_all = not problem.fairness.is_stated
-        """Whether a place costs what the search says: the work of others counts in the judge's."""
-        self.sees_all = is_seen_by_search(problem)
-        """Whether it sees each place between others."""
+        sees_all = is_seen_by_search(problem)
+        self._turns, self._fewest = turns, 0 if sees_all else min(turns, FEWEST_TURNS)
+        self._lists = sees_all or turns > 0  # places between others, or `find_fits` tries all
+        self.prices = self._lists and not problem.fairness.is_stated
+        """Whether what it says of places between others is enough: where work is to be fair, that
+        of others counts, too."""
         self._node, self._without = bench.node, bench.without
         self._as_cheap = AS_CHEAP * abs(bench.without)
         self._found = list[_Found]()
 
-    def trials(self, benches: Sequence[Bench], turns: int) -> list[Trial | None]:
-        """Return the cheapest legal plan found with each slot in some turns; None: none was.
+    def trials(self, benches: Sequence[Bench]) -> list[Trial | None]:
+        """Return the cheapest legal plan found with each slot; None: none was.
 
         The cheapest slots come first: what is found for them may keep others.
         """
@@ -162,10 +165,10 @@ class _SlotSearch:
             between = offers[0].cost if offers else inf
             if cost < inf and self._more(slot) > least:
                 share = max(0.0, cost - least) / dearer if dearer else 0.0
-                few = FEWEST_TURNS if turns and not self.sees_all else 0
-                self._look(benches[at], slot, max(few, min(MOST_TURNS, int(turns * share))),
-                           between)
-            if self._cheapest(slot) is None or self._more(slot) > between + ALIKE:
+                turns = max(self._fewest, min(MOST_TURNS, int(self._turns * share)))
+                self._look(benches[at], slot, turns, between)
+            if self._lists and (self._cheapest(slot) is None
+                                or self._more(slot) > between + ALIKE):
                 self._keep(_judged(benches[at], self._view, offers))
         best = [self._cheapest(slot) for slot in self._slots]
         return [None if each is None else each.trial for each in best]
@@ -173,7 +176,8 @@ class _SlotSearch:
     def _asked(self, slot: Customer) -> tuple[float, list[Offer]]:
         """Return what a slot costs more at once, and its places on routes, the cheapest first."""
         cost = self._search.ask(slot)
-        offers = offers_of(self._search, self._view.solution, self._view.node)
+        offers = offers_of(self._search, self._view.solution, self._view.node
+                           ) if self._lists else []
         return min([cost, *[offer.cost for offer in offers[:1]]]), offers
 
     def _look(self, bench: Bench, slot: Customer, turns: int, between: float) -> None:
