@@ -144,11 +144,9 @@ def import_asks(page: Page) -> None:
 
 def close_import(page: Page) -> None:
     """Close the dialog of an import, if it is open."""
-    cancel = page.locator("dialog.import, .import").get_by_role("button", name="Cancel")
-    german = page.locator("dialog.import, .import").get_by_role("button", name="Abbrechen")
-    for button in (cancel, german):
-        if button.count():
-            button.first.click()
+    cancel = page.locator(".import").get_by_role("button", name=re.compile("Cancel|Abbrechen"))
+    if cancel.count():
+        cancel.first.click()
 
 
 def thousand(page: Page) -> None:
