@@ -210,13 +210,13 @@ typedef struct tandem_vehicle_features {
 
 /* How many there are of each; the turn; the last stamp that was given. */
 typedef struct tandem_search_counts {
-    int64_t active, missing, absent, touched;
-    int64_t turn, stamp, best_missing, customers;
+    int64_t active, missing, absent, touched, turn, stamp, best_missing, customers;
     int64_t changed; /* slots, since the best; -1 where any may have */
     int64_t stay;    /* turns near one customer; 0: everywhere */
     int64_t focus;   /* that customer */
     int64_t planned; /* tells the part apart that was planned at best last */
     int64_t movable; /* customers of the trips that small moves changed last */
+    int64_t to_drop; /* whom a turn may leave out beyond the best plan, if they seldom were */
 } tandem_search_counts;
 
 /* Costs of the routes as they are and at their best, and what the annealing goes by. */

@@ -21,13 +21,13 @@ constexpr Int built_beside_from = 2000;
 
 // What holds the routes, and notes what a turn, or one part of it, has changed of them.
 template <typename T>
-concept Store = requires(T store, const T now, Int number, double cost) {
+concept Store = requires(T store, const T now, Int number, double cost, Spare spare) {
     // Removes customers near each other, who are absent then; those before them, from a number on,
     // are tried near the ruin.
     { store.ruin(number) };
-    // Inserts who is absent, from a number on; false, with some inserted, once that costs more than
-    // is to spare.
-    { store.recreate(number, cost) } -> std::same_as<bool>;
+    // Inserts who is absent, from a number on; false, with only some of them inserted, once that
+    // costs more than is to spare, or leaves out more.
+    { store.recreate(number, spare) } -> std::same_as<bool>;
     // Gives changed routes the vehicles that cost least.
     { store.retype() };
     // How often a turn tries something else.
@@ -68,13 +68,14 @@ bool ruin_and_recreate(const ProblemData& data, Searcher& searcher, Routes& rout
     SearchCounts& count = *searcher.count;
     const Int first = begin_turn(data, searcher, most_missing);
     routes.ruin(first);
-    sort_absent(data, searcher, first, draw_order(data, searcher.rng));
+    const Int lacking = count.to_drop > 0 ? num_lacking(data, searcher) : 0;
+    sort_absent(data, searcher, first, draw_order(data, searcher.rng, lacking > 0));
     const double limit = searcher.value->cost + draw_rise(searcher);
     const bool retyped = (data.strategy.swap_vehicles || data.strategy.change_vehicles) &&
                          uniform(searcher.rng) < retyped_share;
-    double spare = std::numeric_limits<double>::infinity();
+    Spare spare{.absences = absences_to_spare(data, searcher, lacking, first)};
     if (!retyped && counts_up(data, searcher)) {
-        spare = limit - cost_to_insert(data, searcher, routes.served_cost(), first);
+        spare.cost = limit - cost_to_insert(data, searcher, routes.served_cost(), first);
     }
     const bool done = routes.recreate(first, spare);
     if (data.deadline.passed()) {
@@ -85,8 +86,9 @@ bool ruin_and_recreate(const ProblemData& data, Searcher& searcher, Routes& rout
     if (done && retyped) routes.retype();
     const double cost = turn_cost(data, searcher, routes.served_cost());
     const bool scarce = !data.all_optional && count.absent > 0;
-    const bool forced = done && scarce && rarer_absences(data, searcher);
-    if (done && (cost < limit || forced)) {
+    const bool counts = scarce && (done || lacking > 0);
+    const bool rarer = counts && rarer_absences(data, searcher);
+    if (done && (cost < limit || rarer)) {
         go_on(searcher, routes, cost);
     } else {
         routes.take_back();
@@ -97,7 +99,8 @@ bool ruin_and_recreate(const ProblemData& data, Searcher& searcher, Routes& rout
 // Ruins and recreates `turns` times.
 //
 // Where no insertion saves anything, a turn is given up once those made cost more than would be
-// accepted; once the search must end, as if it had not begun.
+// accepted, or leave out more who have to be served; once the search must end, as if it had not
+// begun.
 template <Store Routes>
 void anneal(const ProblemData& data, Searcher& searcher, Routes& routes, Int turns) {
     for (Int turn = 0; turn < turns; ++turn) {

@@ -1,5 +1,6 @@
 #include "search/turn.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -12,6 +13,21 @@ namespace {
 
 // How likely each of those near the ruin is tried before others, where there are more.
 constexpr double tried_near_share = 0.5;
+
+// How many of some customers have to be served.
+Int num_obliged(const ProblemData& data, View<const Int, 1> nodes) {
+    if (data.all_optional) return 0;
+    return std::count_if(nodes.begin(), nodes.end(),
+                         [&](Int node) { return bool(data.must_serve[node]); });
+}
+
+// How many more of those a turn may leave out than were before it.
+Int most_more(const ProblemData& data, const Searcher& searcher, Int lacking) {
+    const SearchCounts& count = *searcher.count;
+    if (count.to_drop == 0) return 0;
+    const Int fewest = num_obliged(data, searcher.best_missing.first(count.best_missing));
+    return std::max(Int{0}, fewest + count.to_drop - lacking);
+}
 
 }  // namespace
 
@@ -62,25 +78,36 @@ double draw_rise(const Searcher& searcher) {
     return -searcher.value->temperature * std::log(1.0 - uniform(searcher.rng));
 }
 
+Int num_lacking(const ProblemData& data, const Searcher& searcher) {
+    return num_obliged(data, searcher.missing.first(searcher.count->missing));
+}
+
+Int absences_to_spare(const ProblemData& data, const Searcher& searcher, Int lacking, Int first) {
+    if (lacking == 0) return Spare{}.absences;
+    return lacking + most_more(data, searcher, lacking) -
+           num_obliged(data, searcher.absent.first(first));
+}
+
 bool rarer_absences(const ProblemData& data, Searcher& searcher) {
     const View<Int, 1> absences = searcher.absences;
     const View<const Int, 1> missing = searcher.missing, absent = searcher.absent;
     const Int num_missing = searcher.count->missing;
     const Int num_absent = searcher.count->absent;
-    Int before = 0, after = 0, more = 0;
+    Int before = 0, after = 0, lacking = 0, more = 0;
     for (Int node : missing.first(num_missing)) {
         if (!data.must_serve[node]) continue;
         before += absences[node];
-        --more;
+        ++lacking;
     }
     for (Int node : absent.first(num_absent)) {
         if (!data.must_serve[node]) continue;
         after += absences[node]++;
         ++more;
     }
-    const bool dearer =
-        left_out_cost(data, absent, num_absent) > left_out_cost(data, missing, num_missing);
-    return more == 0 && after < before && !dearer;
+    more -= lacking;
+    if (more < 0 || more > most_more(data, searcher, lacking) || after >= before) return false;
+    return more > 0 ||
+           left_out_cost(data, absent, num_absent) <= left_out_cost(data, missing, num_missing);
 }
 
 bool counts_up(const ProblemData& data, const Searcher& searcher) {

@@ -1,11 +1,19 @@
 // What a turn of the annealing begins with and is judged by, whatever holds the routes.
 #pragma once
 
+#include <limits>
+
 #include "search/route/layout.h"
 
 namespace tandem {
 
 constexpr Int most_missing = 12;  // how many of the customers left out are tried again each turn
+
+// What a turn may still do before it can't be accepted any more.
+struct Spare {
+    double cost = std::numeric_limits<double>::infinity();  // of what it inserts
+    Int absences = std::numeric_limits<Int>::max();  // of those it tries who have to be served
+};
 
 // List `most` of the customers left out as absent. In place; return how many are not tried.
 Int begin_turn(const ProblemData& data, Searcher& searcher, Int most);
@@ -19,9 +27,21 @@ void try_near(const ProblemData& data, Searcher& searcher, Int seed, Int first, 
 // Return by how much a turn may raise the cost, drawn by the temperature.
 double draw_rise(const Searcher& searcher);
 
+// Return how many who have to be served are left out before this turn; 0 where nobody has to be.
+Int num_lacking(const ProblemData& data, const Searcher& searcher);
+
+// Return how many of those a turn may leave out that inserts the absent from number `first` on.
+//
+// As many as before, or more by `SearchCounts::to_drop`; where none were, cost alone decides.
+Int absences_to_spare(const ProblemData& data, const Searcher& searcher, Int lacking, Int first);
+
 // Tell whether after this turn others are left out who must not be, and seldom were.
 //
-// They are as many as before, and all who are left out cost no more. Counts the absences. In place.
+// They are as many as before, and all who are left out cost no more; or more, if those may be.
+// Counts the absences. In place.
+//
+// Reference: Nagata and Bräysy (2009), a powerful route minimization heuristic for the vehicle
+// routing problem with time windows, Operations Research Letters 37:333-338.
 bool rarer_absences(const ProblemData& data, Searcher& searcher);
 
 // Tell whether what a turn has inserted so far costs no more than all that it will insert.

@@ -37,6 +37,10 @@ MOST_STRING, FOR_STRINGS = 20.0, 2000
 the root of these. That brings far more there than as many turns by short ones, which with few turns
 come further. Where drones fly they stay short."""
 
+MOST_DROPPED, DROPPED_UNTIL = 2, 0.5
+"""How many more than in the best plan may be left out so that who fits nowhere is served, and the
+share of a cooling after which none may: where not all can be served, that makes routes longer."""
+
 LOOK = 5e-6
 """Seconds for each node that one may take."""
 
@@ -144,6 +148,8 @@ class SearchThread:
             value.cooling = (cold / hot) ** (1 / (self.limits.turns * (span.end - span.begin)))
             self.cooling = span
         value.longest = self._longest_string()
+        dropped = span.share(self.limits.share(self.turns)) < DROPPED_UNTIL
+        self.searcher.count.to_drop = MOST_DROPPED if dropped else 0
         began, before = time.perf_counter(), int(self.searcher.count.turn)
         if self.linked is None:
             anneal(*self.given, turns, ANY)

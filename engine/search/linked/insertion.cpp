@@ -333,7 +333,7 @@ bool insert(const ProblemData& data, Searcher& searcher, Linked& linked, Int nod
 }  // namespace
 
 Recreated recreate_linked(const ProblemData& data, Searcher& searcher, Linked& linked, Int first,
-                          double spare, bool scan_all) {
+                          Spare spare, bool scan_all) {
     const View<Int, 1> absent = searcher.absent;
     const bool enlarge = data.strategy.swap_vehicles && uniform(searcher.rng) < enlarged;
     const bool opens_first = uniform(searcher.rng) < opening_share;
@@ -360,9 +360,13 @@ Recreated recreate_linked(const ProblemData& data, Searcher& searcher, Linked& l
             total += best.cost;
         } else {
             absent.at(left++) = node;
+            spare.absences -= data.must_serve[node] ? 1 : 0;
         }
-        spare -= std::min(best.cost, left_out);
-        if (spare < 0.0) return {false, total};
+        spare.cost -= std::min(best.cost, left_out);
+        if (spare.cost < 0.0 || spare.absences < 0) {
+            searcher.count->absent = left;
+            return {false, total};
+        }
     }
     searcher.count->absent = left;
     return {true, total};

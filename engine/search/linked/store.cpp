@@ -166,7 +166,7 @@ public:
         added_ = 0.0;
     }
 
-    bool recreate(Int first, double spare) {
+    bool recreate(Int first, Spare spare) {
         const auto [done, added] = recreate_linked(data_, searcher_, linked_, first, spare, false);
         added_ = added;
         return done;
@@ -174,9 +174,8 @@ public:
 
     void insert_all(Int first) {
         const bool scan_all = data_.num_nodes < built_beside_from;
-        constexpr double infinite = std::numeric_limits<double>::infinity();
         saved_ = 0.0;
-        added_ = recreate_linked(data_, searcher_, linked_, first, infinite, scan_all).added;
+        added_ = recreate_linked(data_, searcher_, linked_, first, {}, scan_all).added;
     }
 
     void retype() { added_ -= cheapen_runs(data_, searcher_, linked_); }

@@ -4,6 +4,7 @@
 
 #include "search/linked/layout.h"
 #include "search/route/vehicles.h"
+#include "search/turn.h"
 
 namespace tandem {
 
@@ -42,7 +43,7 @@ struct Recreated {
 // Inserts the absent customers from number `first` on, each where it costs least; they are tried
 // everywhere if `scan_all`, else nearby. As `recreate`.
 Recreated recreate_linked(const ProblemData& data, Searcher& searcher, Linked& linked, Int first,
-                          double spare, bool scan_all);
+                          Spare spare, bool scan_all);
 
 // The slots of both routes, `nowhere` if no tails were swapped, and what it costs.
 struct SwappedTails {

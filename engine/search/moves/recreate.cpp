@@ -20,6 +20,10 @@ constexpr Int few_to_sort = 64;
 // How often those come first whom it costs most to leave out, where that differs.
 constexpr double dearest_first = 0.5;
 
+// How often those come first who were left out most often, where somebody lacks: who fits in few
+// places has to have them before others do.
+constexpr double hardest_first = 0.5;
+
 constexpr double opened_anyhow = 0.3;  // share of shipments that drones may fly
 
 // By how much, at most, what the plan as a whole would cost more is taken to count in a turn, since
@@ -27,11 +31,14 @@ constexpr double opened_anyhow = 0.3;  // share of shipments that drones may fly
 constexpr double heaviest = 2.0;
 
 // Returns where a customer comes in an order; least first.
-double order_key(const ProblemData& data, Int order, Int node, View<std::uint64_t, 1> rng) {
+double order_key(const ProblemData& data, const Searcher& searcher, Int order, Int node) {
+    const View<std::uint64_t, 1> rng = searcher.rng;
     const Windows place = data.place[0][node];
     switch (order) {
         case by_cost:
             return -data.unassigned_more[node];
+        case by_absences:
+            return -double(searcher.absences[node]) - uniform(rng);
         case by_demand:
             if (tiers_of(data) > 0) {
                 return -double(total_delivered(data.amount, node) +
@@ -157,7 +164,8 @@ Int find_best(const Insertion& insertion, Int home, bool opens, bool scan_all) {
 
 }  // namespace
 
-Int draw_order(const ProblemData& data, View<std::uint64_t, 1> rng) {
+Int draw_order(const ProblemData& data, View<std::uint64_t, 1> rng, bool lacks) {
+    if (lacks && uniform(rng) < hardest_first) return by_absences;
     if (is_dearer_to_some(data) && uniform(rng) < dearest_first) return by_cost;
     return orders[std::size_t(below(rng, orders.size()))];
 }
@@ -167,7 +175,7 @@ void sort_absent(const ProblemData& data, const Searcher& searcher, Int first, I
     const View<double, 1> key = searcher.scratch->key;
     const Int last = searcher.count->absent;
     for (Int index = first; index < last; ++index) {
-        key[absent[index]] = order_key(data, order, absent[index], searcher.rng);
+        key[absent[index]] = order_key(data, searcher, order, absent[index]);
     }
     Int gap = 1;
     while (few_to_sort * gap < last - first) gap = 3 * gap + 1;
@@ -185,7 +193,7 @@ void sort_absent(const ProblemData& data, const Searcher& searcher, Int first, I
 }
 
 bool recreate(const ProblemData& data, const Searcher& searcher, Int first, bool scan_all,
-              double spare) {
+              Spare spare) {
     const View<Int, 1> absent = searcher.absent;
     SearchCounts& count = *searcher.count;
     const bool enlarge = data.strategy.swap_vehicles && uniform(searcher.rng) < enlarged;
@@ -213,9 +221,13 @@ bool recreate(const ProblemData& data, const Searcher& searcher, Int first, bool
         const bool wanted = best.cost < left_out || opens;
         if (best.cost == infeasible || !wanted || !insert(data, searcher, chosen, best.move)) {
             absent.at(left++) = node;
+            spare.absences -= data.must_serve[node] ? 1 : 0;
         }
-        spare -= std::min(best.cost, left_out);
-        if (spare < 0.0) return false;
+        spare.cost -= std::min(best.cost, left_out);
+        if (spare.cost < 0.0 || spare.absences < 0) {
+            count.absent = left;
+            return false;
+        }
     }
     count.absent = left;
     if (has_halts(data)) drop_idle_halts(data, searcher);

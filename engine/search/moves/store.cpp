@@ -45,15 +45,14 @@ public:
         }
     }
 
-    bool recreate(Int first, double spare) {
+    bool recreate(Int first, Spare spare) {
         return tandem::recreate(data_, searcher_, first, data_.strategy.scan_all, spare);
     }
 
     // Inserts who is absent, from a number on, whatever that costs.
     void insert_all(Int first) {
         const bool scan_all = data_.strategy.scan_all || data_.num_nodes < built_beside_from;
-        tandem::recreate(data_, searcher_, first, scan_all,
-                         std::numeric_limits<double>::infinity());
+        tandem::recreate(data_, searcher_, first, scan_all, {});
     }
 
     void retype() {
