@@ -1,13 +1,15 @@
 """A first plan by savings of routes that may be driven either way, where loads alone limit them.
 
 Pairs of customers are joined in the order of what that saves, each where it is first or last on its
-route, whichever: routes are turned round as needed. Where they are long that leaves far fewer
-pieces than joining ends to beginnings, elsewhere it is a little worse: so both are tried.
+route, whichever: routes are turned round as needed. Once none near its end is left, one with room
+goes on to whomever that saves most. Where routes are long, or towns are far away, that leaves far
+fewer pieces than joining ends to beginnings, elsewhere it is a little worse: so both are tried.
 """
 
 import numpy as np
 
-from model.search.beginning.savings import Joined, cost_of, joined, ranked_pairs, routes_of
+from model.search.beginning.savings import (
+    NEIGHBOURS, Joined, cost_of, joined, ranked_pairs, routes_of)
 from model.search.route.layout import NOWHERE, ProblemData
 
 
@@ -22,7 +24,7 @@ def shortest_routes(data: ProblemData, k: int) -> list[list[int]]:
     The customers of each route, in order, by the way that leaves fewer routes without a vehicle or,
     if both leave as few, is shorter.
     """
-    ranks, count = data.near.shape[1], int(data.type[k].count)
+    ranks, count = min(NEIGHBOURS, data.near.shape[1]), int(data.type[k].count)
     keys = ranked_pairs(data, k, ranks)
     ways = [joined(data, k, ranks, keys, either_way) for either_way in (False, True)]
 

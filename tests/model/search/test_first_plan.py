@@ -10,7 +10,7 @@ from model.engine.instance import pack
 from model.problem import UNLIMITED, Points, Problem, StraightLegs, Travel
 from model.search import problem_data
 from model.search.beginning.either_way import shortest_routes
-from model.search.beginning.savings import joined, ranked_pairs, routes_of
+from model.search.beginning.savings import NEIGHBOURS, joined, ranked_pairs, routes_of
 from model.search.first_plan import first_plan
 from model.search.problem_data import make_data, may_be_turned
 from tests.model.search.test_moves import TRUCK, on_a_plane
@@ -46,7 +46,7 @@ def test_routes_are_turned_only_where_that_is_shorter() -> None:
     for seed in range(3):
         problem = scattered(seed=seed)
         data = make_data(problem, pack([problem]))
-        ranks = data.near.shape[1]
+        ranks = min(NEIGHBOURS, data.near.shape[1])
         one_way = routes_of(data, 0, joined(data, 0, ranks, ranked_pairs(data, 0, ranks)))
         either_way = shortest_routes(data, 0)
         assert len(either_way) <= len(one_way)  # there is a vehicle too few for either
@@ -54,6 +54,26 @@ def test_routes_are_turned_only_where_that_is_shorter() -> None:
             assert length(problem, either_way) <= length(problem, one_way)
         turned += either_way != one_way
     assert turned > 0
+
+
+def by_neighbours(problem: Problem, ranks: int) -> list[list[int]]:
+    """Return routes that are joined at either end, by so many neighbours of each customer first."""
+    data = make_data(problem, pack([problem]))
+    return routes_of(data, 0, joined(data, 0, ranks, ranked_pairs(data, 0, ranks), True))
+
+
+def test_a_route_with_room_goes_on_where_none_is_near() -> None:
+    towns = [(float(place), 0.0) for place in (100, 101, 102, 50, 51, 52, 53, 54)]
+    problem = on_a_plane(towns, replace(TRUCK, count=9, capacity=(4000,)))
+    assert sorted(map(sorted, by_neighbours(problem, 2))) == [[1, 2, 3, 8], [4, 5, 6, 7]]
+
+
+@pytest.mark.parametrize("seed", range(5))
+def test_no_two_routes_that_a_truck_holds_are_left(seed: int) -> None:
+    routes = by_neighbours(scattered(seed=seed), 4)
+    assert sorted(chain.from_iterable(routes)) == list(range(1, NUMBER + 1))
+    least, next_one, *_, most = sorted(map(len, routes))
+    assert most <= HELD < least + next_one
 
 
 def test_routes_are_turned_only_where_loads_alone_limit_them(
