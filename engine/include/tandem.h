@@ -150,9 +150,9 @@ typedef struct tandem_evaluation {
     bool timed;     /* working time costs or is limited */
     bool priced;    /* lateness, waiting or what is aboard cost, or all is timed again */
     bool held_back; /* trips must be held back before their cost is known */
-    bool retimed;   /* all behind a change is timed again, since speed changes, who comes later may
-                       have to wait for another window, drones are charged aboard, or wait for calm */
-    bool by_detour; /* an insertion costs what its detour does */
+    bool retimed; /* all behind a change is timed again: speeds, windows or charge change with it */
+    bool lasting; /* what may last too long may wait: a change is timed with its whole route */
+    bool by_detour;   /* an insertion costs what its detour does */
     bool by_distance; /* as that, with one trip of any distance, no releases and no drones */
 } tandem_evaluation;
 

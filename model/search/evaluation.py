@@ -32,9 +32,10 @@ def evaluate(instance: Instance) -> Records:
         retimed = retimed | timed | soft | early | (types["drones"] > 0)
     # What may last too long, or take too much of a battery, as far as it isn't drones' alone.
     bound = flies & ((types["endurance"] < UNLIMITED) | (types["points"] > 0))
-    waits = bool((place["window_earliest"] > 0).any())
-    limited = (bool(instance.max_time_aboard.shape[1] or instance.max_between.shape[2])
-               | (bound & waits))
+    waits = bool((place["window_earliest"] > 0).any()) or place.shape[2] > 1
+    aboard, between = bool(instance.max_time_aboard.shape[1]), bool(instance.max_between.shape[2])
+    lasting = between | ((aboard | bound) & waits)
+    limited = aboard | lasting
     held_back = early | ((retimed | limited) & timed) | lagging
     release = bool((place["release"] > 0).any())
     priced = soft | limited | held_back | retimed | (rates["load"] > 0)
@@ -51,7 +52,7 @@ def evaluate(instance: Instance) -> Records:
                    & (types["max_trips"] == 1) & (types["drones"] == 0) & ~flies)
     evaluation = np.zeros(len(types), dtype_of("tandem_evaluation"))
     for name, told in (("timed", timed), ("priced", priced), ("held_back", held_back),
-                       ("retimed", retimed), ("by_detour", by_detour),
+                       ("retimed", retimed), ("lasting", lasting), ("by_detour", by_detour),
                        ("by_distance", by_distance)):
         evaluation[name] = told
     return evaluation

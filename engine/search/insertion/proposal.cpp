@@ -1,6 +1,7 @@
 #include "search/insertion/proposal.h"
 
 #include "rules/hours.h"
+#include "search/route/freshness.h"
 #include "search/route/stop_loads.h"
 
 namespace tandem {
@@ -57,6 +58,12 @@ void RarerRules::serve(const OnTrip& on, const Whereabouts& at, const Newcomer& 
     if (on.evaluation.priced) {
         windows_ += window_cost(on.data, node, at.front.time + out.duration);
     }
+    if (time_aboard_counts(on.data)) {
+        const Int departure = departure_of(on.data, tour_of(on.fleet, on.slot), on.trip.first);
+        const Int start = newcomer.place.start_of_service(at.front.time + out.duration);
+        is_fresh_ =
+            is_fresh_ && excess_aboard(on.data.max_time_aboard, node, departure, start) <= 0;
+    }
     is_near_ = is_near_ && reaches(on.data, on.route.type, on.stops, on.trip, node);
     here_ = node;
 }
@@ -96,7 +103,25 @@ bool RarerRules::allow(const OnTrip& on, const Whereabouts& at, const Leg& leg) 
             return false;
         }
     }
+    if (time_aboard_counts(on.data)) {
+        const Int next = at.behind + 1, comes = at.front.time + leg.duration;
+        if (!is_fresh_ || !arrive_fresh(on, next, comes - on.stops[next].arrival)) return false;
+    }
     return is_near_;
+}
+
+// As nobody waits on the trip, all come as much later.
+bool RarerRules::arrive_fresh(const OnTrip& on, Int p, Int later) {
+    if (later <= 0) return true;
+    const Int departure = departure_of(on.data, tour_of(on.fleet, on.slot), on.trip.first);
+    for (Int q = p; q < on.trip.last; ++q) {
+        const Stop& stop = on.stops[q];
+        if (stop.kind == customer_stop && excess_aboard(on.data.max_time_aboard, stop.node,
+                                                        departure, stop.arrival + later) > 0) {
+            return false;
+        }
+    }
+    return true;
 }
 
 double RarerRules::cost(const OnTrip& on, const Whereabouts& at, const Leg& leg,

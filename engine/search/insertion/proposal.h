@@ -39,8 +39,8 @@ struct OnTrip {
 // Tells whether all that matters of a route's times is known at its stops.
 inline bool joins_anywhere(const ProblemData& data, const Route& route) {
     const Evaluation& evaluation = data.evaluation[route.type];
-    return !evaluation.priced ||
-           (!evaluation.held_back && !evaluation.retimed && route.sorties == 0);
+    return !evaluation.priced || (!evaluation.held_back && !evaluation.retimed &&
+                                  !evaluation.lasting && route.sorties == 0);
 }
 
 // Who is inserted by some proposals, of which each goes on where another has come.
@@ -53,8 +53,8 @@ struct Whereabouts {
     Int further = 0;
 };
 
-// What rules ask of a proposal that few state: energy, range, travel, soft windows, loads that
-// cost.
+// What rules ask of a proposal that few state: energy, range, travel, time aboard, soft windows,
+// loads that cost.
 class RarerRules {
 public:
     explicit RarerRules(Inserted& inserted) : inserted_(inserted) {}
@@ -82,8 +82,12 @@ private:
 
     void drive(const OnTrip& on, Int behind, Int to, const Leg& leg);
 
+    // Whether nobody's parcel is too long aboard who is served so much later from a stop on.
+    static bool arrive_fresh(const OnTrip& on, Int p, Int later);
+
     Inserted& inserted_;
     bool is_near_ = true;   // to where the trip begins and ends
+    bool is_fresh_ = true;  // what is brought to those inserted
     Int count_ = 0;         // of those inserted
     Int here_ = nowhere;    // who was inserted behind that stop last
     Leg legs_{};            // more of them, without setups

@@ -7,7 +7,7 @@ from model.search.problem_data import make_data
 from tests.model.search.pages import table
 from tests.model.search.stated_rules import plain, stating
 
-ASPECTS = ("timed", "priced", "held back", "retimed", "by detour")
+ASPECTS = ("timed", "priced", "held back", "retimed", "lasting", "by detour")
 
 
 @pytest.mark.parametrize(("stated", "told"), table("what holds").items())

@@ -68,6 +68,17 @@ def problem_by_time(seed: int, number: int = CUSTOMERS) -> Problem:
     return replace(problem, customers=customers, vehicle_types=(truck,))
 
 
+def problem_of_fresh_goods(seed: int) -> Problem:
+    """Return one where parcels are soon too long aboard, at no hourly cost; every other with
+    windows before which vehicles wait.
+    """
+    rng = np.random.default_rng(seed)
+    problem = problem_by_time(4 * seed + 1) if seed % 2 else problem_with_trips(seed)
+    return replace(problem, customers=tuple(
+        replace(customer, max_time_aboard=int(rng.integers(20, 60)) * MINUTE)
+        for customer in problem.customers))
+
+
 def problem_of_shipments(seed: int) -> Problem:
     """Return one of shipments that several rules price: by lateness, by load, or by travel."""
     rng = np.random.default_rng(seed)
@@ -157,6 +168,7 @@ def without(plan: Solution, problem: Problem, node: int) -> Solution:
 @pytest.mark.parametrize("problem", [
     *(problem_with_trips(seed) for seed in seeds(12)),
     *(problem_by_time(seed) for seed in seeds(12)),
+    *(problem_of_fresh_goods(seed) for seed in seeds(12)),
     *(with_other_legs(np.random.default_rng(seed), problem_by_time(seed)) for seed in seeds(12))])
 def test_a_customer_goes_where_that_costs_least(problem: Problem) -> None:
     nobody = Solution((), tuple(range(1, CUSTOMERS + 1)))
