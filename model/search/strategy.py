@@ -65,9 +65,11 @@ def strategy_of(problem: Problem, instance: Instance, moves: Moves, evaluation: 
     linked = bool(evaluation["by_distance"].all())
     # Else parts of trips may have ends of shipments alone, or part who goes together.
     whole = not (problem.shipments or problem.keeps_together or problem.lags_across)
-    # Who else has how much work counts wherever somebody is inserted.
     fair = problem.fairness.is_stated
-    scan_all = fair or problem.num_customers < SCAN_ALL_BELOW
+    # Who else has how much work counts wherever somebody is inserted, but to try all vehicles'
+    # trips takes too long.
+    scan_all = (problem.num_customers < SCAN_ALL_BELOW
+                or (fair and all(kind.max_trips == 1 for kind in problem.vehicle_types)))
     blink = _blink(problem, most_visits)
     resplit = moves.resplit and moves.flights and whole and any(
         kind.num_drones == 1 for kind in problem.vehicle_types)

@@ -79,11 +79,13 @@ def _charged_in_turn(problem: Problem, k: int, legs: Sequence[TripLeg], beside: 
 def comes_by_trips(problem: Problem) -> bool:
     """Tell whether a search begins with the trips of vehicles that fly, as if each had its own.
 
-    It does where they may make several, and where no truck has drones.
+    It does where they may make several, and where no truck has drones. Where it costs how much
+    work a vehicle has, that has to be known.
     """
     kinds = problem.vehicle_types
     return (problem.num_customers >= BY_TRIP_FROM and not problem.keeps_together
-            and not problem.lags_across and any(kind.flies and kind.max_trips > 1 for kind in kinds)
+            and not problem.lags_across and not problem.fairness.is_stated
+            and any(kind.flies and kind.max_trips > 1 for kind in kinds)
             and all(kind.drones is None for kind in kinds))
 
 

@@ -6,8 +6,8 @@ from dataclasses import replace
 import numpy as np
 
 from model.problem import (
-    FULL_SPEED, MS_PER_HOUR, UNLIMITED, Break, DroneType, Energy, IncompatibleGoods, Overtime,
-    Problem, Relation, SpeedProfile, VehicleType,
+    FULL_SPEED, MS_PER_HOUR, UNLIMITED, Break, DroneType, Energy, Fairness, IncompatibleGoods,
+    Overtime, Problem, Relation, SpeedProfile, VehicleType,
 )
 from training.instances import generate
 
@@ -54,6 +54,8 @@ RULES = {
     "trips in the air wait for calm": with_vehicles(flies=True, storms=((HOUR, 2 * HOUR),)),
     "batteries are charged between trips": with_vehicles(flies=True, energy=BATTERY),
     "windows are several": with_customers(gaps=((HOUR, 2 * HOUR),)),
+    "the last end costs": lambda problem: replace(
+        problem, fairness=Fairness(makespan_cost_per_hour=1.0)),
     "time aboard is limited": with_customers(max_time_aboard=HOUR),
     "customers are in an order": lambda problem: replace(problem, relations=(
         Relation("before", (problem.num_depots, problem.num_depots + 1)),)),

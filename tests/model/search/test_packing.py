@@ -8,7 +8,9 @@ import pytest
 from model.engine.instance import pack
 from model.judge.check import check
 from model.judge.timing import RouteDecision, TripDecision, schedule
-from model.problem import Customer, Depot, DroneType, Energy, Problem, Travel, VehicleType
+from model.problem import (
+    Customer, Depot, DroneType, Energy, Fairness, Problem, Travel, VehicleType,
+)
 from model.search.beginning.packing import (
     comes_by_trips, packed_in_fewer, packed_plan, packed_routes, with_single_trips,
 )
@@ -240,12 +242,13 @@ def test_trips_have_times_where_the_clock_ends_as_they_are_packed(
     assert check(problem, found.solution).violations == ()
 
 
-def test_no_trips_are_found_first_where_trucks_have_drones_or_few_are_served() -> None:
+def test_no_trips_are_found_first_for_drones_on_trucks_few_customers_or_fair_work() -> None:
     problem = fleet_of_both()
     truck, drone = problem.vehicle_types
     carrier = replace(truck, drones=DroneType(1, (1000,), 0))
     assert not comes_by_trips(replace(problem, vehicle_types=(carrier, drone)))
     assert not comes_by_trips(replace(problem, vehicle_types=(truck,)))
+    assert not comes_by_trips(replace(problem, fairness=Fairness(makespan_cost_per_hour=1.0)))
     assert not comes_by_trips(street(order("a")))
 
 
