@@ -5,11 +5,9 @@
 #pragma once
 
 #include <concepts>
-#include <limits>
 
 #include "randomness.h"
 #include "search/moves/recreate.h"
-#include "search/turn.h"
 
 namespace tandem {
 

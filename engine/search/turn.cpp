@@ -1,6 +1,5 @@
 #include "search/turn.h"
 
-#include <algorithm>
 #include <cmath>
 #include <utility>
 

@@ -7,7 +7,7 @@ from model.engine.instance import FAR, Instance
 from model.engine.library import dtype_of
 from model.engine.records import Records
 from model.engine.type_rows import NO_PROFILE, WORK_RATES
-from model.problem import UNLIMITED
+from model.problem import UNLIMITED, BoolArray
 
 
 def evaluate(instance: Instance) -> Records:
@@ -32,10 +32,8 @@ def evaluate(instance: Instance) -> Records:
         retimed = retimed | timed | soft | early | (types["drones"] > 0)
     # What may last too long, or take too much of a battery, as far as it isn't drones' alone.
     bound = flies & ((types["endurance"] < UNLIMITED) | (types["points"] > 0))
-    waits = bool((place["window_earliest"] > 0).any()) or place.shape[2] > 1
-    aboard, between = bool(instance.max_time_aboard.shape[1]), bool(instance.max_between.shape[2])
-    lasting = between | ((aboard | bound) & waits)
-    limited = aboard | lasting
+    lasting = _may_wait(instance, bound)
+    limited = lasting | bool(instance.max_time_aboard.shape[1])
     held_back = early | ((retimed | limited) & timed) | lagging
     release = bool((place["release"] > 0).any())
     priced = soft | limited | held_back | retimed | (rates["load"] > 0)
@@ -56,3 +54,13 @@ def evaluate(instance: Instance) -> Records:
                        ("by_distance", by_distance)):
         evaluation[name] = told
     return evaluation
+
+
+def _may_wait(instance: Instance, bound: BoolArray) -> BoolArray:
+    """Return whose trips may have to wait so that nothing lasts too long, (row,); `bound` whose are
+    in the air so long at most.
+    """
+    place = instance.node[0]
+    waits = bool((place["window_earliest"] > 0).any()) or place.shape[2] > 1
+    aboard, between = bool(instance.max_time_aboard.shape[1]), bool(instance.max_between.shape[2])
+    return between | ((aboard | bound) & waits)
