@@ -133,9 +133,8 @@ def _travel(lengths: FloatArray, speed: float, unit: float = UNIT) -> Travel:
     return Travel(duration, distance)
 
 
-def value_of(planner: Planner, path: Path, seconds: float, seed: int) -> float:
+def value_of(planner: Planner, problem: Problem, seconds: float, seed: int) -> float:
     """Return when a plan's last vehicle is back, or what the plan costs where that is asked."""
-    problem = problem_of(path)
     options = PlanOptions("pointer", seed=seed, time_limit=seconds)
     plan = planner.plan(problem, options)
     if plan.solution.unassigned:
@@ -157,10 +156,10 @@ def main(
     with (folder / "best_known.csv").open(encoding="utf-8") as file:
         best = {row["instance"]: float(row["best_known"]) for row in csv.DictReader(file)}
     for name, known in best.items():
-        path = folder / f"{name}.txt"
-        if problem_of(path).num_customers > most:
+        problem = problem_of(folder / f"{name}.txt")
+        if problem.num_customers > most:
             continue
-        value = value_of(planner, path, seconds, seed)
+        value = value_of(planner, problem, seconds, seed)
         gaps.append(gap_percent(value, known))
         typer.echo(f"{name}: {value:.2f}, best known {known:.2f}, {gaps[-1]:.2f} %")
     typer.echo(f"mean {np.mean(gaps):.2f} %")

@@ -1,6 +1,7 @@
 from pathlib import Path
 
 from benchmarks.quality.parallel_drones import problem_of
+from model.problem import Problem
 
 INSTANCE = """NUM DRONES,2
 NUM TRUCKS,1
@@ -13,10 +14,15 @@ DRONE ENDURANCE,10000.00
 """
 
 
+def read(folder: Path, text: str) -> Problem:
+    """Return the problem of an instance's text."""
+    path = folder / "instance.txt"
+    path.write_text(text, "utf-8")
+    return problem_of(path)
+
+
 def test_trucks_drive_around_corners_and_drones_fly_straight(tmp_path: Path) -> None:
-    path = tmp_path / "two.txt"
-    path.write_text(INSTANCE, "utf-8")
-    problem = problem_of(path)
+    problem = read(tmp_path, INSTANCE)
     truck, drone = problem.vehicle_types
     assert (drone.count, drone.flies) == (2, True)
     assert problem.travel[truck.travel].duration[0].tolist() == [0, 7000, 8000]
@@ -41,9 +47,7 @@ DRONE UNIT COST,0.03
 
 
 def test_hours_are_limited_and_kilometres_cost_where_that_is_asked(tmp_path: Path) -> None:
-    path = tmp_path / "costs.txt"
-    path.write_text(BY_COST, "utf-8")
-    problem = problem_of(path)
+    problem = read(tmp_path, BY_COST)
     truck, drone = problem.vehicle_types
     assert not problem.fairness.is_stated
     assert (truck.max_working_duration, drone.max_working_duration) == (7_200_000, 5_400_000)
@@ -64,9 +68,7 @@ Coordinate X         Coordinate Y         Dronable Demand
 
 
 def test_nothing_is_an_hour_aboard_where_all_is_picked_up(tmp_path: Path) -> None:
-    path = tmp_path / "trips.txt"
-    path.write_text(SEVERAL_TRIPS, "utf-8")
-    problem = problem_of(path)
+    problem = read(tmp_path, SEVERAL_TRIPS)
     truck, drone = problem.vehicle_types
     assert (truck.count, drone.count, drone.endurance) == (2, 3, 700_000)
     assert problem.travel[truck.travel].duration[0, 2] == 10_000
