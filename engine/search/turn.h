@@ -13,6 +13,13 @@ constexpr Int most_missing = 12;  // how many of the customers left out are trie
 struct Spare {
     double cost = std::numeric_limits<double>::infinity();  // of what it inserts
     Int absences = std::numeric_limits<Int>::max();  // of those it tries who have to be served
+
+    // Spends so much on somebody, who is absent or not. In place; false if there isn't so much.
+    bool spend(double on_him, bool is_absent) {
+        cost -= on_him;
+        absences -= is_absent ? 1 : 0;
+        return cost >= 0.0 && absences >= 0;
+    }
 };
 
 // List `most` of the customers left out as absent. In place; return how many are not tried.

@@ -356,14 +356,14 @@ Recreated recreate_linked(const ProblemData& data, Searcher& searcher, Linked& l
         if ((!opens && scan_all) || best.cost == infeasible) places.try_everywhere();
         const double left_out = data.unassigned_cost + data.unassigned_more[node];
         const bool wanted = best.cost < left_out || opens;
-        if (best.cost != infeasible && wanted && insert(data, searcher, linked, node, best.move)) {
-            total += best.cost;
-        } else {
+        const bool is_absent =
+            best.cost == infeasible || !wanted || !insert(data, searcher, linked, node, best.move);
+        if (is_absent) {
             absent.at(left++) = node;
-            spare.absences -= data.must_serve[node] ? 1 : 0;
+        } else {
+            total += best.cost;
         }
-        spare.cost -= std::min(best.cost, left_out);
-        if (spare.cost < 0.0 || spare.absences < 0) {
+        if (!spare.spend(std::min(best.cost, left_out), is_absent && data.must_serve[node])) {
             searcher.count->absent = left;
             return {false, total};
         }

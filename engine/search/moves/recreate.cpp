@@ -219,12 +219,10 @@ bool recreate(const ProblemData& data, const Searcher& searcher, Int first, bool
         const Int chosen = find_best(insertion, home, opens, scan_all);
         const double left_out = data.unassigned_cost + data.unassigned_more[node];
         const bool wanted = best.cost < left_out || opens;
-        if (best.cost == infeasible || !wanted || !insert(data, searcher, chosen, best.move)) {
-            absent.at(left++) = node;
-            spare.absences -= data.must_serve[node] ? 1 : 0;
-        }
-        spare.cost -= std::min(best.cost, left_out);
-        if (spare.cost < 0.0 || spare.absences < 0) {
+        const bool is_absent =
+            best.cost == infeasible || !wanted || !insert(data, searcher, chosen, best.move);
+        if (is_absent) absent.at(left++) = node;
+        if (!spare.spend(std::min(best.cost, left_out), is_absent && data.must_serve[node])) {
             count.absent = left;
             return false;
         }
