@@ -127,9 +127,9 @@ def time_for_reasons() -> Iterator[None]:
         yield
 
 
-@pytest.fixture(autouse=True)
-def no_open_database() -> Iterator[None]:
-    """Close what tests opened, services apart: from Python 3.13 on, SQLite warns of it."""
+@pytest.fixture(scope="session")
+def opened() -> Iterator[set[Engine]]:
+    """Return what tests opened, noted all along: a service may connect while listeners change."""
     engines: set[Engine] = set()
 
     def note(connection: Connection) -> None:
@@ -137,9 +137,16 @@ def no_open_database() -> Iterator[None]:
             engines.add(connection.engine)
 
     event.listen(Engine, "engine_connect", note)
-    yield
+    yield engines
     event.remove(Engine, "engine_connect", note)
-    for engine in engines:
+
+
+@pytest.fixture(autouse=True)
+def no_open_database(opened: set[Engine]) -> Iterator[None]:
+    """Close what a test opened, services apart: from Python 3.13 on, SQLite warns of it."""
+    opened.clear()
+    yield
+    for engine in opened:
         engine.dispose()
 
 
