@@ -128,7 +128,7 @@ def time_for_reasons() -> Iterator[None]:
 
 
 @pytest.fixture(scope="session")
-def opened() -> Iterator[set[Engine]]:
+def connected_engines() -> Iterator[set[Engine]]:
     """Return what tests opened, noted all along: a service may connect while listeners change."""
     engines: set[Engine] = set()
 
@@ -142,11 +142,11 @@ def opened() -> Iterator[set[Engine]]:
 
 
 @pytest.fixture(autouse=True)
-def no_open_database(opened: set[Engine]) -> Iterator[None]:
+def no_open_database(connected_engines: set[Engine]) -> Iterator[None]:
     """Close what a test opened, services apart: from Python 3.13 on, SQLite warns of it."""
-    opened.clear()
+    connected_engines.clear()
     yield
-    for engine in opened:
+    for engine in connected_engines:
         engine.dispose()
 
 
