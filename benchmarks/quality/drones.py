@@ -16,6 +16,7 @@ from typing import Annotated
 import numpy as np
 import typer
 
+from benchmarks.clock import count_processor_time
 from benchmarks.peers.versus import machine
 from benchmarks.quality.truck_drone import LOADERS
 from benchmarks.quality.truck_drone_rules import TruckDroneInstance, broken_rules
@@ -198,6 +199,12 @@ def sample(instances: Iterable[TruckDroneInstance], most: int | None) -> list[Tr
     return chosen
 
 
+def _folder(data: Path, name: str) -> Path:
+    """Return where a set lies: beside `truck_drone` if not in it."""
+    folder = data / "truck_drone" / name
+    return folder if folder.is_dir() else data / name
+
+
 def main(
     data: Annotated[Path, typer.Option(help="folder that holds `truck_drone`")]
     = Path("../shared/data"),
@@ -211,12 +218,16 @@ def main(
     most: Annotated[int | None, typer.Option(help="instances of each set and size")] = None,
     markdown: Annotated[Path | None, typer.Option(help="where to write the table")] = None,
 ) -> None:
-    """Measure what isn't measured yet and print a table of all rows."""
+    """Measure what isn't measured yet and print a table of all rows.
+
+    Budgets on one thread are of the processor's time.
+    """
     folders = sets.split(",")
     if unknown := set(folders) - set(LOADERS):
         raise typer.BadParameter(f"sets: no {', '.join(sorted(unknown))}")
-    read = [instance for name in folders
-            for instance in LOADERS[name](data / "truck_drone" / name)
+    if threads == 1:
+        count_processor_time()
+    read = [instance for name in folders for instance in LOADERS[name](_folder(data, name))
             if largest is None or instance.size <= largest]
     known = {row.key for row in read_rows(output, DroneResult)}
     planned = [Run(instance, threads, float(budget), seed)

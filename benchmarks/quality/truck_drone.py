@@ -104,7 +104,17 @@ def load_tspd_agatz(folder: Path) -> list[TruckDroneInstance]:
 
 def _agatz_instance(folder: Path, row: dict[str, str], set_name: str) -> TruckDroneInstance:
     name = row["instance"]
-    text = (folder / f"{name}.txt").read_text(encoding="utf-8")
+    problem = _agatz_problem(folder / f"{name}.txt")
+    with_sites = with_revisits(problem, [0])
+    kind = "truck only" if row["method"].startswith("truck-only") else row["kind"]
+    return TruckDroneInstance(name, set_name, problem.num_customers, with_sites,
+                              float(row["reference_value"]), kind.replace("_", " "), NO_RULES,
+                              (with_sites,))
+
+
+def _agatz_problem(path: Path) -> Problem:
+    """Read a file whose drone has the restrictions that its lines name."""
+    text = path.read_text(encoding="utf-8")
     lines = re.sub(r"/\*.*?\*/", "", text, flags=re.DOTALL).splitlines()
     endurance = UNLIMITED
     by_truck: set[int] = set()
@@ -118,16 +128,29 @@ def _agatz_instance(folder: Path, row: dict[str, str], set_name: str) -> TruckDr
             numbers.append([float(word) for word in words[:2]])
     (truck_factor,), (drone_factor,), (num_nodes,), *places = numbers
     if len(places) != num_nodes:
-        raise ValueError(f"{name}: {len(places)} places, {num_nodes:g} nodes")
+        raise ValueError(f"{path.stem}: {len(places)} places, {num_nodes:g} nodes")
     points = np.array(places)
     length = _straight(points)
     drones = DroneType(1, (UNIT,), travel=1, endurance=endurance, endurance_includes_waiting=False)
-    problem = with_revisits(_makespan_problem(
-        points, frozenset(by_truck), truck_factor * length, drone_factor * length, drones), [0])
-    kind = "truck only" if row["method"].startswith("truck-only") else row["kind"]
-    return TruckDroneInstance(name, set_name, len(points) - 1, problem,
-                              float(row["reference_value"]), kind.replace("_", " "), NO_RULES,
-                              (problem,))
+    return _makespan_problem(
+        points, frozenset(by_truck), truck_factor * length, drone_factor * length, drones)
+
+
+def load_tspd_large(folder: Path) -> list[TruckDroneInstance]:
+    """Return the TSP-D instances of Agatz, Bouman and Schmidt with 175 to 500 nodes, by layout.
+
+    The rules are those of `load_tspd_bogyrbayeva`. Published are means over a layout and a size
+    alone, here those of iterative chainlet partitioning (ICP), so that only the mean gap over all
+    instances of both tells anything. Sizes of which some are missing are left out.
+    """
+    return [
+        TruckDroneInstance(path.stem, f"tspd_{row['layout']}", problem.num_customers, problem, None,
+                           "none", NO_RULES, (problem,), float(row["icp_mean"]))
+        for row in _rows(folder / "table.csv")
+        if row["alpha"] == "2" and row["files_here"] == row["files_in_repository"]
+        for path in sorted(folder.glob(f"{row['layout']}-*-n{row['n']}.txt"))
+        for problem in (_agatz_problem(path),)
+    ]
 
 
 def load_tspd_bogyrbayeva(folder: Path) -> list[TruckDroneInstance]:
@@ -335,6 +358,7 @@ def _karak_customer(place: dict[str, Any], served_by: ServedBy, delivery: float,
 LOADERS: Mapping[str, Callable[[Path], list[TruckDroneInstance]]] = {
     "tspd_agatz": load_tspd_agatz,
     "tspd_bogyrbayeva": load_tspd_bogyrbayeva,
+    "tspd_large": load_tspd_large,
     "fstsp_murray_chu": load_fstsp_murray_chu,
     "vrpd_sacramento": load_vrpd_sacramento,
     "vrptw_drone_joo_lee": load_vrptw_drone_joo_lee,

@@ -8,7 +8,7 @@ import pytest
 
 from benchmarks.quality.truck_drone import (
     UNIT, load_fstsp_murray_chu, load_hvdrp_karak, load_tspd_agatz, load_tspd_bogyrbayeva,
-    load_vrpd_sacramento, load_vrptw_drone_joo_lee,
+    load_tspd_large, load_vrpd_sacramento, load_vrptw_drone_joo_lee,
 )
 from benchmarks.quality.truck_drone_rules import CROSSINGS, LOOPS
 from model.judge.check import Evaluation, check
@@ -119,6 +119,20 @@ def test_agatz_refuses_a_wrong_number_of_places(agatz: Path) -> None:
     _write(agatz / "instances" / "line-1-n3.txt", AGATZ + "1.0 1.0 more\n")
     with pytest.raises(ValueError, match="line-1-n3: 4 places, 3 nodes"):
         load_tspd_agatz(agatz)
+
+
+def test_large_sizes_have_published_means_and_no_launch_sites(tmp_path: Path) -> None:
+    for name in ("line-1-n3", "line-2-n3", "line-3-n4"):
+        _write(tmp_path / f"{name}.txt", AGATZ)
+    _write(tmp_path / "table.csv", "layout,n,alpha,icp_mean,files_in_repository,files_here\n"
+           "line,3,1,15,2,2\nline,3,2,12,2,2\nline,4,2,20,2,1\n")
+    first, second = load_tspd_large(tmp_path)
+    assert (first.name, second.name) == ("line-1-n3", "line-2-n3")
+    assert (first.set_name, first.size, first.reference, first.heuristic) == (
+        "tspd_line", 2, None, 12)
+    assert first.problem.launch_sites == ()
+    evaluation = _judge(first.problem, (0, 1, 0), SortieDecision((2,), 0, 1))
+    assert evaluation.cost.total == pytest.approx(7.5 + 5)
 
 
 def test_bogyrbayeva_keeps_optimum_and_heuristic_apart(tmp_path: Path) -> None:
