@@ -233,6 +233,7 @@ void offer_trips(const Insertion& insertion, Int slot) {
     const auto [route, stops, trips, sorties] = tour_of(now, slot);
     const Int k = route.type, last = route.length - 1;
     const double rate = data.rate[k].distance;
+    const TravelLegs legs = legs_of(data.leg, data.type[k].travel);
     for (Int p = -1; p <= last; ++p) {
         const bool alone = p < 0 || stops[p].kind == end_stop;
         if (!alone &&
@@ -243,8 +244,9 @@ void offer_trips(const Insertion& insertion, Int slot) {
         const Int from = p == last ? p - 1 : std::max(p, Int{0});
         const Int to = p == last ? p : p + (alone ? 2 : 1);
         const Int here = stops[from].node, there = stops[to].node;
+        const Int direct = to == from + 1 ? stops[from].leg : leg(legs, here, there).distance;
         const auto detour = [&](bool first) {
-            return double(detour_by_reload(data, k, here, node, there, first)) * rate;
+            return double(way_by_reload(data, k, here, node, there, first) - direct) * rate;
         };
         double cost = detour(alone && p != last);
         Beginning beginning = Beginning::alone;

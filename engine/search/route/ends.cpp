@@ -15,9 +15,11 @@ void place_ends(const ProblemData& data, Int k, const Tour& tour) {
 }
 
 Reload nearest_reload(const ProblemData& data, Int k, Int before, Int behind) {
-    const TravelLegs legs = legs_of(data.leg, data.type[k].travel);
+    const Int travel = data.type[k].travel;
+    // There are few such places, so their rows stay in the cache.
     const auto distance_by = [&](Int node) {
-        return leg(legs, before, node).distance + leg(legs, node, behind).distance;
+        return distance_from(legs_to(data.back, travel, node), before) +
+               distance_to(legs_from(data.leg, travel, node), behind);
     };
     const Int depot = data.type[k].depot;
     Reload best{distance_by(depot), depot};
@@ -29,15 +31,14 @@ Reload nearest_reload(const ProblemData& data, Int k, Int before, Int behind) {
     return best;
 }
 
-Int detour_by_reload(const ProblemData& data, Int k, Int before, Int node, Int behind, bool first) {
-    const TravelLegs legs = legs_of(data.leg, data.type[k].travel);
-    const Int direct = leg(legs, before, behind).distance;
+Int way_by_reload(const ProblemData& data, Int k, Int before, Int node, Int behind, bool first) {
+    const Int travel = data.type[k].travel;
     if (first) {
-        return leg(legs, before, node).distance + nearest_reload(data, k, node, behind).distance -
-               direct;
+        return distance_from(legs_to(data.back, travel, node), before) +
+               nearest_reload(data, k, node, behind).distance;
     }
-    return nearest_reload(data, k, before, node).distance + leg(legs, node, behind).distance -
-           direct;
+    return nearest_reload(data, k, before, node).distance +
+           distance_to(legs_from(data.leg, travel, node), behind);
 }
 
 }  // namespace tandem

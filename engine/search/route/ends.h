@@ -21,9 +21,9 @@ struct Reload {
 // Return how far it is from a node to another by a place to reload at, and which.
 Reload nearest_reload(const ProblemData& data, Int k, Int before, Int behind);
 
-// Return how much further it is by a customer and a place to reload at.
+// Return how far it is from a node to another by a customer and a place to reload at.
 //
 // `first` tells that the customer comes first.
-Int detour_by_reload(const ProblemData& data, Int k, Int before, Int node, Int behind, bool first);
+Int way_by_reload(const ProblemData& data, Int k, Int before, Int node, Int behind, bool first);
 
 }  // namespace tandem
