@@ -20,14 +20,11 @@ from model.search.neighbourhood.neighbourhood import Neighbourhood, make_neighbo
 from model.search.neighbourhood.numbering import renumbered
 from model.search.route.layout import MEASURES, PlanPrices, ProblemData
 from model.search.strategy import ALL_MOVES, Moves, grounded, strategy_of, visits_of
+from model.search.ways import with_ways_priced
 
 TURNED_FROM = 2000
 """Number of customers from which on routes of the first plan are turned round as needed. With fewer
 the search has soon made more of any plan."""
-
-
-WAYS_BY_END = 0.001
-"""What ways of all vehicles cost at least, by what as much later a last end does."""
 
 
 def make_data(problem: Problem, instance: Instance, moves: Moves = ALL_MOVES,
@@ -45,7 +42,7 @@ def make_data(problem: Problem, instance: Instance, moves: Moves = ALL_MOVES,
         instance, moves = without_needless_flights(problem, instance, moves)
     else:
         instance = grounded(instance)
-    instance = _with_ways_priced(problem, instance)
+    instance = with_ways_priced(problem, instance)
     types, evaluation = instance.type[0], evaluate(instance)
     if problem.fairness.is_stated:
         evaluation["by_distance"] = False
@@ -69,26 +66,6 @@ def make_data(problem: Problem, instance: Instance, moves: Moves = ALL_MOVES,
         near=neighbourhood.near, granular=neighbourhood.granular,
         deadline=Alarm().setting if deadline is None else deadline,
     )
-
-
-def _with_ways_priced(problem: Problem, instance: Instance) -> Instance:
-    """Return a packed problem in which ways cost a little where the last end alone does.
-
-    Else none would be longer than another for whoever isn't last. Time would do as well, but for
-    who has to be held back then.
-    """
-    per_hour = WAYS_BY_END * problem.fairness.makespan_cost_per_hour
-    if not per_hour:
-        return instance
-    vehicles = sum([kind.count for kind in problem.vehicle_types])
-    per_hour /= max(1, min(vehicles, problem.num_customers))
-    rate = instance.rate.copy()
-    for row, kind in enumerate(problem.vehicle_types):
-        duration, distance = problem.travel[kind.travel].longest()
-        if distance:
-            least = per_hour * (duration / MS_PER_HOUR) / (distance / MM_PER_KM)
-            rate["distance"][0, row] = max(rate["distance"][0, row], least)
-    return instance._replace(rate=rate)
 
 
 def _plan_prices(problem: Problem) -> PlanPrices:
