@@ -36,7 +36,8 @@ def last_end(problem: Problem) -> float:
     found = improve(problem, pack([problem]), Solution((), tuple(range(1, problem.num_nodes))),
                     SearchConfig(1, turns=3000)).solution
     evaluation = check(problem, found)
-    assert evaluation.is_feasible and not found.unassigned
+    assert evaluation.is_feasible
+    assert not found.unassigned
     assert evaluation.cost.total == pytest.approx(evaluation.makespan / MINUTE)
     return evaluation.makespan / MINUTE
 
