@@ -22,8 +22,7 @@ def come_ways_first(problem: Problem) -> bool:
 
     One vehicle alone ends sooner by each that is shorter.
     """
-    vehicles = sum([kind.count for kind in problem.vehicle_types])
-    return problem.fairness.makespan_cost_per_hour > 0 and vehicles > 1
+    return problem.fairness.makespan_cost_per_hour > 0 and _num_vehicles(problem) > 1
 
 
 def with_dear_ways(problem: Problem) -> Problem:
@@ -48,9 +47,12 @@ def with_ways_priced(problem: Problem, instance: Instance) -> Instance:
 
 def _least_per_km(problem: Problem, share: float) -> Iterator[float]:
     """Yield what a kilometre costs at least by each vehicle type."""
-    vehicles = sum([kind.count for kind in problem.vehicle_types])
     per_hour = share * problem.fairness.makespan_cost_per_hour
-    per_hour /= max(1, min(vehicles, problem.num_customers))
+    per_hour /= max(1, min(_num_vehicles(problem), problem.num_customers))
     for kind in problem.vehicle_types:
         duration, distance = problem.travel[kind.travel].longest()
         yield per_hour * (duration / MS_PER_HOUR) / (distance / MM_PER_KM) if distance else 0.0
+
+
+def _num_vehicles(problem: Problem) -> int:
+    return sum([kind.count for kind in problem.vehicle_types])
