@@ -50,8 +50,9 @@ struct Vector {
         return made;
     }
 
+    // The same number in all. Less nothing, it is itself, even if it is a negative zero.
     static Vector all(Number value) {
-        return each([value] { return Piece{} + value; });
+        return each([value] { return value - Piece{}; });
     }
 
     friend Vector operator+(const Vector& a, const Vector& b) {

@@ -50,17 +50,25 @@ void add_product(const float* x, View<const float, 2> matrix, float* result) {
 }
 
 // Add rows, from an entry on, times a matrix to what describes actions.
+//
+// Sums have names, so that they stay in registers.
 template <Int length, Int first = 0>
 void add_products(const float* const (&rows)[abreast], const float* matrix,
                   Lanes (&sum)[abreast][action_blocks]) {
-    for (Int i = first; i < length; ++i) {
-        Lanes of_row[action_blocks];
-        for (Int k = 0; k < action_blocks; ++k) {
-            load(matrix + i * action_width + k * num_lanes, of_row[k]);
+    for (Int k = 0; k < action_blocks; ++k) {
+        Lanes a = sum[0][k], b = sum[1][k], c = sum[2][k], d = sum[3][k];
+        for (Int i = first; i < length; ++i) {
+            Lanes of_row;
+            load(matrix + i * action_width + k * num_lanes, of_row);
+            a += rows[0][i] * of_row;
+            b += rows[1][i] * of_row;
+            c += rows[2][i] * of_row;
+            d += rows[3][i] * of_row;
         }
-        for (Int row = 0; row < abreast; ++row) {
-            for (Int k = 0; k < action_blocks; ++k) sum[row][k] += rows[row][i] * of_row[k];
-        }
+        sum[0][k] = a;
+        sum[1][k] = b;
+        sum[2][k] = c;
+        sum[3][k] = d;
     }
 }
 
@@ -120,10 +128,10 @@ void Decider::describe_actions(Embedding memory, const Seen& seen) {
             action[row] = row_of(action_, first + row);
             const float* share = memory[seen.token[index]].data() + share_part;
             for (Int k = 0; k < action_blocks; ++k) {
-                Lanes own;
-                load(bias + k * num_lanes, sum[row][k]);
+                Lanes usual, own;
+                load(bias + k * num_lanes, usual);
                 load(share + k * num_lanes, own);
-                sum[row][k] += own;
+                sum[row][k] = usual + own;
             }
         }
         add_products<num_usual_features>(feature, weights_.action.data(), sum);
