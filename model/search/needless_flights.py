@@ -45,11 +45,12 @@ def without_needless_flights(problem: Problem, instance: Instance,
     With what the search may do, which doesn't split trips anew where nobody may choose any more.
     Both are the same if no flight is needless.
     """
-    if not _is_plain(problem):
-        return instance, moves
-    needless = [number for number, kind in enumerate(problem.vehicle_types)
-                if kind.drones is not None and _states_only(kind, VEHICLE_TYPE)
-                and _flies_no_cheaper(problem, kind)]
+    plain = [number for number, kind in enumerate(problem.vehicle_types)
+             if kind.drones is not None and _states_only(kind, VEHICLE_TYPE)]
+    # All customers are looked at only where somebody flies.
+    needless = [number for number in plain
+                if _flies_no_cheaper(problem, problem.vehicle_types[number])
+                ] if plain and _is_plain(problem) else []
     if not needless:
         return instance, moves
     can_fly = instance.can_fly.copy()
