@@ -34,7 +34,6 @@ from model.search.sharing import Crew, go_on_from_best
 from model.search.starts import Starting, Starts, starting_of
 from model.search.strategy import ALL_MOVES, Moves
 from model.search.temperature import Heat
-from model.search.ways import BY_WAYS_COOLED, BY_WAYS_SHARE, come_ways_first, with_dear_ways
 from model.search.worker import SearchThread
 from model.solution import Solution, renumbered
 
@@ -227,9 +226,6 @@ def improve(problem: Problem, instance: Instance, solution: Solution, config: Se
             elif not solution.routes and comes_by_trips(problem):
                 found = _plan_by_trip(task)
                 task = replace(task, by_trip=True, config=replace(config, cooled=BY_TRIP_COOLED))
-            elif not solution.routes and come_ways_first(problem):
-                found = _beforehand(_as(with_dear_ways(problem), task), BY_WAYS_SHARE)
-                task = replace(task, config=replace(config, cooled=BY_WAYS_COOLED))
             if alarm.has_rung:
                 return found
             return _improved(task, found.solution, trucks_first, on_progress)
@@ -378,15 +374,12 @@ def _plan_by_truck(task: _Task) -> Improved:
 
 def _plan_by_trip(task: _Task) -> Improved:
     """Return a plan whose trips were found as if each were a vehicle's own, then packed."""
-    found = _beforehand(_as(with_single_trips(task.problem), task),
+    single = with_single_trips(task.problem)
+    found = _beforehand(replace(task, problem=single, instance=pack([single], False)),
                         BY_TRIP_SHARE_FOR_FEWER if fewer_may_pay(task.problem) else BY_TRIP_SHARE)
     data = make_data(task.problem, task.instance, task.config.moves, task.neighbourhood)
     return replace(found, solution=timed(task.problem, data, task.neighbourhood.numbering,
                                          packed_plan(task.problem, found.solution)))
-
-
-def _as(problem: Problem, task: _Task) -> _Task:
-    return replace(task, problem=problem, instance=pack([problem], False))
 
 
 def _beforehand(task: _Task, share: float) -> Improved:

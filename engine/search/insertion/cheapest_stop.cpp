@@ -97,25 +97,20 @@ void scan_simple(const Insertion& insertion, Int slot) {
     }
 }
 
-void scan_beside(const Insertion& insertion) {
+void scan_beside(const Insertion& insertion, Int other) {
     const auto& [data, searcher, node, enlarge, best] = insertion;
     const Fleet& fleet = searcher.now;
-    for (const Int other : data.granular[node]) {
-        if (other < 0) break;
-        const Int slot = fleet.where[other].slot;
-        if (slot < 0) continue;
-        const Int k = fleet.route[slot].type;
-        if (!(is_simple(data, fleet, slot) && data.can(k, 0, node))) continue;
-        const Int p = fleet.where[other].position, m = data.type[k].travel;
-        const View<const Stop, 1> stops = fleet.stop[slot];
-        const Rate& rate = data.rate[k];
-        Joining joins;
-        if ((enlarge ||
-             !is_too_far_beside(legs_to(data.back, m, node), legs_from(data.leg, m, node), stops, p,
-                                rate.distance, best.cost - rate.stop)) &&
-            may_join(insertion, slot, stops[p].trip, joins)) {
-            scan_trip(insertion, joins, p - 1, p);
-        }
+    const Int slot = fleet.where[other].slot;
+    const Int k = fleet.route[slot].type;
+    if (!(is_simple(data, fleet, slot) && data.can(k, 0, node))) return;
+    const Int p = fleet.where[other].position, m = data.type[k].travel;
+    const View<const Stop, 1> stops = fleet.stop[slot];
+    const Rate& rate = data.rate[k];
+    Joining joins;
+    if ((enlarge || !is_too_far_beside(legs_to(data.back, m, node), legs_from(data.leg, m, node),
+                                       stops, p, rate.distance, best.cost - rate.stop)) &&
+        may_join(insertion, slot, stops[p].trip, joins)) {
+        scan_trip(insertion, joins, p - 1, p);
     }
 }
 

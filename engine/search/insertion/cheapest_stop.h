@@ -11,7 +11,7 @@ bool is_simple(const ProblemData& data, const Fleet& fleet, Int slot);
 // Tries the customer on all trips of a route where only distance counts.
 void scan_simple(const Insertion& insertion, Int slot);
 
-// Tries the customer beside neighbours where only distance counts.
-void scan_beside(const Insertion& insertion);
+// Tries the customer beside a neighbour where only distance counts.
+void scan_beside(const Insertion& insertion, Int other);
 
 }  // namespace tandem

@@ -226,45 +226,60 @@ void offer_flight_trips(const Insertion& insertion, Int slot) {
     }
 }
 
-void offer_trips(const Insertion& insertion, Int slot) {
+void offer_trips_alone(const Insertion& insertion, Int slot) {
+    const auto [data, searcher, node, enlarge, found] = insertion;
+    const auto [route, stops, trips, sorties] = tour_of(searcher.now, slot);
+    const Int k = route.type, last = route.length - 1;
+    if (!may_begin(data, k, node)) return;
+    const TravelLegs legs = legs_of(data.leg, data.type[k].travel);
+    double further = 0.0;
+    for (Int p = -1; p <= last; ++p) {
+        if (p >= 0 && stops[p].kind != end_stop) continue;
+        // It is as far from anywhere where trips begin and end at one place.
+        if (p < 0 || is_apart(data, k)) {
+            const Int from = p == last ? p - 1 : std::max(p, Int{0});
+            const Int to = p == last ? p : p + 2;
+            const Int here = stops[from].node, there = stops[to].node;
+            const Int direct = to == from + 1 ? stops[from].leg : leg(legs, here, there).distance;
+            further = double(way_by_reload(data, k, here, node, there, p != last) - direct);
+        }
+        double cost = further * data.rate[k].distance + data.rate[k].stop -
+                      most_saved(data, searcher.now, slot, node);
+        // The others carry less far, at best next to nothing.
+        if (loads_cost(data, k) && is_apart(data, k)) cost -= load_cost(data, searcher.now, slot);
+        if (cost < found.cost && (p < 0 || !data.place[0][node].too_late(stops[p].leave))) {
+            offer_trip(insertion, slot, cost, p, Beginning::alone);
+        }
+    }
+}
+
+void offer_splits(const Insertion& insertion, Int slot) {
     const auto [data, searcher, node, enlarge, found] = insertion;
     const double best = found.cost;
     const Fleet& now = searcher.now;
     const auto [route, stops, trips, sorties] = tour_of(now, slot);
-    const Int k = route.type, last = route.length - 1;
-    const double rate = data.rate[k].distance;
-    const TravelLegs legs = legs_of(data.leg, data.type[k].travel);
-    for (Int p = -1; p <= last; ++p) {
-        const bool alone = p < 0 || stops[p].kind == end_stop;
-        if (!alone &&
-            (stops[p].flying > 0 || stops[p].kind == start_stop || stops[p + 1].kind == end_stop)) {
+    const Int k = route.type;
+    const Rate& rate = data.rate[k];
+    for (Int p = 0; p < route.length - 1; ++p) {
+        if (stops[p].kind == end_stop || stops[p].kind == start_stop || stops[p].flying > 0 ||
+            stops[p + 1].kind == end_stop) {
             continue;
         }
-        // Between whom a trip of its own comes: behind an end, the next begins.
-        const Int from = p == last ? p - 1 : std::max(p, Int{0});
-        const Int to = p == last ? p : p + (alone ? 2 : 1);
-        const Int here = stops[from].node, there = stops[to].node;
-        const Int direct = to == from + 1 ? stops[from].leg : leg(legs, here, there).distance;
+        const Int here = stops[p].node, there = stops[p + 1].node;
         const auto detour = [&](bool first) {
-            return double(way_by_reload(data, k, here, node, there, first) - direct) * rate;
+            return double(way_by_reload(data, k, here, node, there, first) - stops[p].leg) *
+                   rate.distance;
         };
-        double cost = detour(alone && p != last);
-        Beginning beginning = Beginning::alone;
-        if (!alone) {
-            const double before = detour(true);
-            const bool until = before < cost;
-            beginning = until ? Beginning::behind : Beginning::before;
-            cost = std::min(cost, before);
-            if (cost < best && !part_fits(data, now, slot, p, node, until)) continue;
-        } else if (!may_begin(data, k, node)) {
-            continue;
-        }
-        cost += data.rate[k].stop - most_saved(data, now, slot, node);
-        // Each of two trips carries less, or less far, at best next to nothing.
-        if (loads_cost(data, k) && (!alone || is_apart(data, k))) {
-            cost -= load_cost(data, now, slot);
-        }
-        if (cost < best && (p < 0 || !data.place[0][node].too_late(stops[p].leave))) {
+        double cost = detour(false);
+        const double before = detour(true);
+        const bool until = before < cost;
+        const Beginning beginning = until ? Beginning::behind : Beginning::before;
+        cost = std::min(cost, before);
+        if (cost < best && !part_fits(data, now, slot, p, node, until)) continue;
+        cost += rate.stop - most_saved(data, now, slot, node);
+        // Each of two trips carries less, at best next to nothing.
+        if (loads_cost(data, k)) cost -= load_cost(data, now, slot);
+        if (cost < best && !data.place[0][node].too_late(stops[p].leave)) {
             offer_trip(insertion, slot, cost, p, beginning);
         }
     }

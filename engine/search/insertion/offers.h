@@ -76,8 +76,11 @@ void offer_flight_trips(const Insertion& insertion, Int slot);
 // Lists trips of their own of a route's vehicle to launch sites, from where a customer is flown to.
 void offer_halt_trips(const Insertion& insertion, Int slot);
 
-// Lists a customer where a trip more begins or ends.
-void offer_trips(const Insertion& insertion, Int slot);
+// Lists trips of a route's vehicle to a customer alone.
+void offer_trips_alone(const Insertion& insertion, Int slot);
+
+// Lists a customer where a trip is split, at the end of the one part or the beginning of the other.
+void offer_splits(const Insertion& insertion, Int slot);
 
 // Takes the cheapest of the insertions listed, if it is the best and isn't overlooked.
 //

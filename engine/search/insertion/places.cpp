@@ -107,6 +107,32 @@ void keep(const Insertion& insertion, Int slot, double before) {
     if (best.cost < before) kept.become(best.move);
 }
 
+// Tries a customer on a route by `find`, to which the plan as a whole costs nothing. The best it
+// finds costs what it lets the route end later, too: how much later is known once it is found.
+template <class Find>
+void try_weighed(const Insertion& insertion, Int slot, const Find& find) {
+    const auto [data, searcher, node, enlarge, best] = insertion;
+    if (best.weight == 0.0) {
+        find();
+        return;
+    }
+    const auto more_by = [&, node = node](double cost) {
+        return best.weight *
+               plan_cost_of_joining(data, searcher.now, best.shares, slot, node, cost);
+    };
+    const double least = more_by(0.0);
+    const Surcharge surcharge(best, least);
+    const double bar = best.cost;
+    Move former;
+    former.become(best.move);
+    find();
+    if (best.cost >= bar) return;
+    best.cost += more_by(best.cost) - least;
+    if (best.cost < bar) return;
+    best.cost = bar;
+    best.move.become(former);
+}
+
 // Tries a customer on all routes, those first where that takes little. As `try_route`.
 //
 // Most turns are undone, so that most routes are as when the customer was inserted before. If the
@@ -120,29 +146,27 @@ void try_routes(const Insertion& insertion) {
             const bool flies = data.can(route.type, 1, node);
             if (!flies && !data.can(route.type, 0, node)) continue;
             if (data.deadline.passed()) return;
-            const Surcharge surcharge(
-                best, best.weight > 0.0
-                          ? best.weight * plan_cost_of_joining(data, now, best.shares, slot, node)
-                          : 0.0);
-            const bool known = data.strategy.keep_places && !enlarge && route.stamp != changing;
-            if (known && is_kept(insertion, slot)) {
-                if (!costly && best.takes(searcher.kept_cost(node, slot))) {
-                    best.move.become(searcher.kept_move(node, slot));
+            try_weighed(insertion, slot, [&] {
+                const bool known = data.strategy.keep_places && !enlarge && route.stamp != changing;
+                if (known && is_kept(insertion, slot)) {
+                    if (!costly && best.takes(searcher.kept_cost(node, slot))) {
+                        best.move.become(searcher.kept_move(node, slot));
+                    }
+                    return;
                 }
-                continue;
-            }
-            if (costly != (flies || !is_simple(data, now, slot))) continue;
-            const double before = best.cost;
-            best.blink = known ? 0.0 : data.strategy.blink;
-            try_route(insertion, slot);
-            best.blink = data.strategy.blink;
-            if (known) keep(insertion, slot, before);
+                if (costly != (flies || !is_simple(data, now, slot))) return;
+                const double before = best.cost;
+                best.blink = known ? 0.0 : data.strategy.blink;
+                try_route(insertion, slot);
+                best.blink = data.strategy.blink;
+                if (known) keep(insertion, slot, before);
+            });
         }
     }
 }
 
 // Tries a customer on more trips of a route.
-void try_trips_of(const Insertion& insertion, Int slot) {
+void try_trips_of(const Insertion& insertion, Int slot, MoreTrips tried) {
     const auto [data, searcher, node, enlarge, best] = insertion;
     const Fleet& now = searcher.now;
     const Int k = now.route[slot].type;
@@ -158,7 +182,8 @@ void try_trips_of(const Insertion& insertion, Int slot) {
         if (data.can(k, 0, node)) try_pair_trips(insertion, slot);
         return;
     }
-    if (data.can(k, 0, node)) offer_trips(insertion, slot);
+    if (data.can(k, 0, node)) offer_trips_alone(insertion, slot);
+    if (data.can(k, 0, node) && tried == MoreTrips::any) offer_splits(insertion, slot);
     if (data.can(k, 1, node)) offer_flight_trips(insertion, slot);
     if (has_halts(data) && data.can(k, 1, node)) offer_halt_trips(insertion, slot);
     if (best.weight > 0.0) take_cheapest(insertion);
@@ -195,6 +220,39 @@ void offer_halts_beside(const Insertion& insertion, Int other) {
     const Trip& trip = now.trip(slot, index);
     if (!data.can(now.route[slot].type, 1, node) || !may_fly_on(insertion, slot, index)) return;
     offer_halts(insertion, slot, std::max(p - 1, trip.first), std::min(p, trip.last - 1));
+}
+
+// Calls `visit` with each neighbour of a customer who is served.
+template <class Visit>
+void for_each_beside(const Insertion& insertion, const Visit& visit) {
+    const Fleet& now = insertion.searcher.now;
+    for (const Int other : insertion.data.granular[insertion.node]) {
+        if (other < 0) break;
+        if (now.where[other].slot >= 0) visit(other);
+    }
+}
+
+// Tries a customer beside neighbours on one route after another.
+void try_routes_beside(const Insertion& insertion) {
+    const Fleet& now = insertion.searcher.now;
+    const auto slot_of = [&](Int other) { return now.where[other].slot; };
+    for_each_beside(insertion, [&](Int first) {
+        const Int slot = slot_of(first);
+        bool is_tried = false, is_behind = false;
+        for_each_beside(insertion, [&](Int other) {
+            is_behind = is_behind || other == first;
+            is_tried = is_tried || (!is_behind && slot_of(other) == slot);
+        });
+        if (is_tried) return;
+        try_weighed(insertion, slot, [&] {
+            for_each_beside(insertion, [&](Int other) {
+                if (slot_of(other) != slot) return;
+                scan_beside(insertion, other);
+                offer_beside(insertion, other);
+            });
+            take_cheapest(insertion);
+        });
+    });
 }
 
 // What a route costs that serves a customer alone, among the others as they are.
@@ -238,12 +296,13 @@ void find_beside(const Insertion& insertion) {
         scan_pair_beside(insertion);
         return;
     }
-    scan_beside(insertion);
-    for (const Int other : data.granular[node]) {
-        if (other < 0) break;
-        if (searcher.now.where[other].slot >= 0) offer_beside(insertion, other);
+    if (best.weight > 0.0) {
+        try_routes_beside(insertion);
+    } else {
+        for_each_beside(insertion, [&](Int other) { scan_beside(insertion, other); });
+        for_each_beside(insertion, [&](Int other) { offer_beside(insertion, other); });
+        take_cheapest(insertion);
     }
-    take_cheapest(insertion);
     if (!has_halts(data)) return;
     for (const Int other : data.granular[node]) {
         if (other < 0) break;
@@ -252,12 +311,12 @@ void find_beside(const Insertion& insertion) {
     take_cheapest(insertion);
 }
 
-void try_trips(const Insertion& insertion, Int number) {
+void try_trips(const Insertion& insertion, Int number, MoreTrips tried) {
     const Searcher& searcher = insertion.searcher;
     const Int active = searcher.count->active;
     const Int first = number < active ? below(searcher.rng, active) : 0;
     for (Int index = first; index < first + std::min(number, active); ++index) {
-        try_trips_of(insertion, searcher.active[index < active ? index : index - active]);
+        try_trips_of(insertion, searcher.active[index < active ? index : index - active], tried);
     }
     take_cheapest(insertion);
 }
@@ -267,7 +326,7 @@ void find_at_home(const Insertion& insertion, Int slot) {
     const Int k = searcher.now.route[slot].type;
     if (!data.can(k, 0, node) && !data.can(k, 1, node)) return;
     try_route(insertion, slot);
-    try_trips_of(insertion, slot);
+    try_trips_of(insertion, slot, MoreTrips::any);
     take_cheapest(insertion);
 }
 

@@ -19,10 +19,13 @@ void find_place(const Insertion& insertion);
 // Finds the cheapest insertion of a customer beside its neighbours.
 void find_beside(const Insertion& insertion);
 
-// Tries a customer on a trip more of so many routes, or where one of theirs is split.
+// Which trips more are tried: for the customer alone, or where one is split, too.
+enum class MoreTrips { alone, any };
+
+// Tries a customer on a trip more of so many routes.
 //
 // Follows `find_place` or `find_beside`. Where these are not all routes, they are drawn.
-void try_trips(const Insertion& insertion, Int number);
+void try_trips(const Insertion& insertion, Int number, MoreTrips tried);
 
 // Finds the cheapest insertion of a customer on one route, on its trips as they are and on more.
 void find_at_home(const Insertion& insertion, Int slot);

@@ -116,7 +116,9 @@ bool several_trips(const Searcher& searcher) { return searcher.now.trip.shape(1)
 // Finds where a customer is inserted best, who goes with nobody served. In place.
 void find_anywhere(const Insertion& insertion, bool opens, bool scan_all) {
     const auto [data, searcher, node, enlarge, best] = insertion;
+    const Int active = searcher.count->active;
     Int tried = 0;
+    MoreTrips which = MoreTrips::any;
     if (opens) {
         try_new_route(data, searcher, node, best);
     } else if (!scan_all) {
@@ -128,11 +130,14 @@ void find_anywhere(const Insertion& insertion, bool opens, bool scan_all) {
     }
     if (best.cost == infeasible) {
         find_place(insertion);
-        if (best.cost == infeasible || best.weight > 0.0 || uniform(searcher.rng) < more_trips) {
-            tried = searcher.count->active;
-        }
+        if (best.cost == infeasible || uniform(searcher.rng) < more_trips) tried = active;
     }
-    if (tried > 0) try_trips(insertion, tried);
+    // A vehicle that ends soon may well make a trip more.
+    if (tried == 0 && !opens && best.weight > 0.0 && several_trips(searcher)) {
+        tried = active;
+        which = MoreTrips::alone;
+    }
+    if (tried > 0) try_trips(insertion, tried, which);
 }
 
 // Finds where a customer is inserted best, at home if he has one. In place.

@@ -85,7 +85,7 @@ double plan_cost(const ProblemData& data, const Searcher& searcher) {
 }
 
 double plan_cost_of_joining(const ProblemData& data, const Fleet& fleet, const Shares& shares,
-                            Int slot, Int node) {
+                            Int slot, Int node, double cost) {
     const Route& route = fleet.route[slot];
     const double share = share_of(data, fleet, slot);
     const double service = double(data.place[0][node].service_duration());
@@ -96,7 +96,10 @@ double plan_cost_of_joining(const ProblemData& data, const Fleet& fleet, const S
     if (measure_of(data.fairness) == Measure::load) more = amount_at(data, node);
     if (measure_of(data.fairness) == Measure::duration) more = longer;
     const double before = share_before(data.type[route.type]) + share;
-    const Shares grown = with_more(shares, before, more, {route.end, route.end + Int(longer)});
+    const double paid = fleet.cost[slot] - data.rate[route.type].fixed;
+    const double later =
+        paid > 0.0 ? std::max(service, cost * double(route.working) / paid) : longer;
+    const Shares grown = with_more(shares, before, more, {route.end, route.end + Int(later)});
     return fairness_cost(data.fairness, grown) - fairness_cost(data.fairness, shares);
 }
 

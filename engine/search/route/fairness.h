@@ -14,9 +14,10 @@ Shares shares_of(const ProblemData& data, const Searcher& searcher);
 // Return what the routes cost as a whole.
 double plan_cost(const ProblemData& data, const Searcher& searcher);
 
-// Estimate by how much that grows if a customer comes on the route in a slot.
+// Estimate by how much that grows if a customer comes on the route in a slot, which then costs so
+// much more: it ends later in proportion.
 double plan_cost_of_joining(const ProblemData& data, const Fleet& fleet, const Shares& shares,
-                            Int slot, Int node);
+                            Int slot, Int node, double cost);
 
 // Estimate by how much that grows if a route serves a customer alone on another trip.
 double plan_cost_of_trip(const ProblemData& data, const Fleet& fleet, const Shares& shares,

@@ -1,6 +1,4 @@
-"""Ways that cost more at first where the last end does."""
-
-from dataclasses import replace
+"""How several vehicles share the work where the last end costs."""
 
 import numpy as np
 import pytest
@@ -8,9 +6,8 @@ import pytest
 from model.engine.instance import pack
 from model.judge.check import check
 from model.problem import MM_PER_KM, Customer, Depot, Fairness, Problem, Travel, VehicleType
-from model.search import improve as search
+from model.search import strategy
 from model.search.improve import SearchConfig, improve
-from model.search.ways import come_ways_first, with_dear_ways
 from model.solution import Solution
 
 MINUTE = 60_000
@@ -42,29 +39,11 @@ def last_end(problem: Problem, turns: int) -> float:
     return evaluation.makespan / MINUTE
 
 
-def test_last_end_comes_sooner_where_ways_cost_more_at_first(
+def test_insertions_count_by_how_much_later_a_vehicle_ends(
         monkeypatch: pytest.MonkeyPatch) -> None:
-    """And ways cost nothing in what is told."""
+    """So that few turns share the work out, and where neighbours alone are looked beside, too."""
     problems = [crew(seed) for seed in range(6)]
-    first = np.mean([last_end(problem, 3000) for problem in problems])
-    monkeypatch.setattr(search, "come_ways_first", lambda _: False)
-    # Seven tenths as many turns came before.
-    assert first < 0.97 * np.mean([last_end(problem, 5100) for problem in problems])
-
-
-def test_dearer_ways_stay_as_they_are() -> None:
-    problem = crew(0)
-    van, drone = problem.vehicle_types
-    dear = replace(problem, vehicle_types=(replace(van, cost_per_km=100.0), drone))
-    kept, raised = with_dear_ways(dear).vehicle_types
-    assert kept.cost_per_km == 100.0
-    # A tenth of a minute's unit for each of six vehicles, and a minute a kilometre.
-    assert raised.cost_per_km == pytest.approx(0.1 / 6, rel=1e-4)
-
-
-def test_ways_come_first_where_several_vehicles_may_end_last() -> None:
-    problem = crew(0)
-    alone = replace(problem, vehicle_types=(replace(problem.vehicle_types[0], count=1),))
-    assert come_ways_first(problem)
-    assert not come_ways_first(alone)
-    assert not come_ways_first(replace(problem, fairness=Fairness()))
+    in_long = np.mean([last_end(problem, 3000) for problem in problems])
+    assert np.mean([last_end(problem, 1000) for problem in problems]) < 1.02 * in_long
+    monkeypatch.setattr(strategy, "SCAN_ALL_BELOW", 0)
+    assert np.mean([last_end(problem, 1000) for problem in problems]) < 1.02 * in_long
