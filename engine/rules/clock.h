@@ -102,6 +102,14 @@ struct Speeds {
         return changes == 0 ? none : times[changes - 1];
     }
 
+    // How much of a delay is left at least: whoever drives later may do so faster.
+    Int left_of(Int delay) const {
+        if (is_steady(type) || delay <= 0) return delay;
+        const auto [slowest, fastest] =
+            std::minmax_element(factors.data(), factors.data() + num_changes(type) + 1);
+        return delay * *slowest / *fastest;
+    }
+
     // How long so much driving lasts at most that takes `duration` at full speed on some legs.
     Int most(Int duration, Int legs) const {
         if (is_steady(type)) return duration;

@@ -1,35 +1,43 @@
 #include "rules/launch_place.h"
 #include "search/insertion/offers.h"
-#include "search/route/drone_data.h"
+#include "search/insertion/sortie_times.h"
 #include "search/route/refresh.h"
 #include "search/route/stop_loads.h"
 
 namespace tandem {
 namespace {
 
-// From which stop on and up to which a drone is aboard.
+// From which stop on and up to which a drone is aboard, when it is free there at the soonest, and
+// the number of its next sortie.
 struct AboardBetween {
-    Int since = far, until = none;
+    Int since = far, until = none, free = far, next = 0;
 };
 
 // Returns between which stops drones of a row are aboard at a place of a route, in half stops;
 // between none if all fly then. Of several, all that one of them is.
 AboardBetween aboard_at(const ProblemData& data, const Fleet& fleet, Int slot, Int half, Int row) {
     const Route& route = fleet.route[slot];
-    const Int number = first_drone(data.type, route.type, row);
+    const Flying flying = flying_of(data, fleet, slot, row);
+    const View<const Sortie, 1> sorties = flying.sorties;
     AboardBetween some;
-    for (Int drone = number; drone < number + data.type[row].drones; ++drone) {
-        AboardBetween aboard{0, route.length};
-        for (const Sortie& sortie : sorties_of(fleet, slot)) {
+    for (Int drone = flying.drone; drone < flying.drone + data.type[row].drones; ++drone) {
+        AboardBetween aboard{0, route.length, flying.stops[half / 2].arrival, 0};
+        for (; aboard.next < sorties.size(); ++aboard.next) {
+            const Sortie& sortie = sorties[aboard.next];
             if (sortie.drone != drone) continue;
             if (2 * sortie.recovery > half) {
                 aboard.until = 2 * sortie.launch < half ? none : sortie.launch;
                 break;
             }
             aboard.since = std::max(aboard.since, Int{sortie.recovery});
+            if (2 * sortie.recovery < half) continue;
+            aboard.free = sortie.launch < sortie.recovery
+                              ? std::max(aboard.free, flying.end_of(sortie))
+                              : flying.end_after(sortie, aboard.free);
         }
         if (aboard.until == none) continue;
-        some = {std::min(some.since, aboard.since), std::max(some.until, aboard.until)};
+        some = {std::min(some.since, aboard.since), std::max(some.until, aboard.until),
+                std::min(some.free, aboard.free), aboard.next};
     }
     return some;
 }
@@ -62,6 +70,7 @@ struct FlownTo {
     // At most, beside what is driven, flown and worked.
     const double saved = most_saved(data, searcher.now, slot, node);
     const Int idle = idle_time(route);  // how long the route could work longer at no cost
+    const Speeds speeds{data.type[k], data.profile_time[k], data.profile_factor[k]};
 };
 
 // Sorties to a customer by drones of a row on a route.
@@ -83,8 +92,10 @@ public:
         Front front{from.arrival + out.duration};
         if (!front.serve(place)) return;
         const Int left = gone_by(type, from.leave);
-        const Int begun = recovery_end(type, ready) - idle;
-        Int last = aboard_at(data, searcher.now, slot, 2 * launch, row).until;
+        const AboardBetween aboard = aboard_at(data, searcher.now, slot, 2 * launch, row);
+        const Int free = launch > 0 ? take_off(type, aboard.free, 0) : ready;
+        const Int begun = recovery_end(type, free);
+        Int last = aboard.until;
         const Int furthest = searcher.now.trip(slot, from.trip).last;
         last = std::min({last, furthest, crosses ? launch + max_span : launch});
         for (Int recovery = data.strategy.loops ? launch : launch + 1; recovery <= last;
@@ -108,7 +119,8 @@ public:
                 }
             }
             // The truck leaves no sooner than the drone is aboard, whatever else it has time for.
-            const Int longer = std::max(Int{0}, begun + flight.duration() - to.leave);
+            const Int later = flying_.delay(recovery, begun + flight.duration(), aboard.next);
+            const Int longer = std::max(Int{0}, speeds.left_of(later) - idle);
             double cost = flown + usual_work_cost(rate, longer) + late - saved;
             if (loaded_) {
                 cost += load_more(data, searcher.now, slot, launch, recovery, node);
@@ -122,6 +134,7 @@ public:
 
 private:
     const Room room_ = room_on(data, searcher.now, slot, k, node);
+    const Flying flying_ = flying_of(data, searcher.now, slot, row);
     const bool priced_ = data.evaluation[k].priced;
     const bool loaded_ = loads_cost(data, k);
 };

@@ -2,7 +2,7 @@
 
 #include "rules/launch_place.h"
 #include "search/insertion/cheapest_stop.h"
-#include "search/route/drone_data.h"
+#include "search/insertion/sortie_times.h"
 #include "search/route/ends.h"
 #include "search/route/goods.h"
 #include "search/route/refresh.h"
@@ -16,7 +16,8 @@ struct LeastCost {
     const ProblemData& data;
     const Newcomer& newcomer;
     Int k;
-    Int spare;     // how long the route could work longer at no cost
+    Int spare;  // how long the route could work longer at no cost
+    Speeds speeds;
     double saved;  // at most, beside all that
 
     // Returns that between two stops; `best` if it is no less, or not allowed.
@@ -29,7 +30,8 @@ struct LeastCost {
             // While drones fly, the truck may have time before they are back.
             const Int longer = detour.out.duration + detour.on.duration +
                                newcomer.place.service_duration() - here.gap;
-            cost += usual_work_cost(rate, std::max(Int{0}, longer - spare - here.idle));
+            const Int left = speeds.left_of(std::max(Int{0}, longer - here.idle));
+            cost += usual_work_cost(rate, std::max(Int{0}, left - spare));
         }
         if (cost >= best) return best;
         Front front{here.leave + detour.out.duration};
@@ -143,8 +145,10 @@ void offer_stops(const Insertion& insertion, Int slot, Int first, Int last) {
     const View<const Stop, 1> stops = now.stop[slot];
     const Newcomer newcomer = newcomer_for(data, data.type[k], node);
     const Room room = room_on(data, now, slot, k, node);
-    const LeastCost least{data, newcomer, k, spare_time(data, tour_of(now, slot)),
-                          most_saved(data, now, slot, node)};
+    const Speeds speeds{data.type[k], data.profile_time[k], data.profile_factor[k]};
+    const LeastCost least{data,   newcomer,
+                          k,      spare_time(data, tour_of(now, slot)),
+                          speeds, most_saved(data, now, slot, node)};
     const Int most = longest_trip(data.type[k]) - now.trip(slot, stops[first].trip).distance;
     for (Int p = first; p <= last; ++p) {
         const Stop &here = stops[p], &behind = stops[p + 1];
@@ -166,6 +170,8 @@ void offer_joining(const Insertion& insertion, Int slot) {
     const Int k = now.route[slot].type;
     const View<const Stop, 1> stops = now.stop[slot];
     const View<const Sortie, 1> sorties = now.sortie[slot];
+    const Int idle = idle_time(now.route[slot]);
+    const Speeds speeds{data.type[k], data.profile_time[k], data.profile_factor[k]};
     for (Int s = 0; s < now.route[slot].sorties; ++s) {
         const Sortie& sortie = sorties[s];
         const Int row = row_of_drone(data.type, k, sortie.drone);
@@ -179,15 +185,22 @@ void offer_joining(const Insertion& insertion, Int slot) {
         bool may_carry = can_carry(data, row, sortie, 0, node);
         if (!may_carry && tiers_of(data) == 0) continue;
         const TravelLegs flights = legs_of(data.leg, data.type[row].drone_travel);
+        const TravelLegs homeward = legs_of(data.leg, data.type[row].home_travel);
+        const Flying flying = flying_of(data, now, slot, row);
+        const Int over =
+            flying.end_of(sortie) + data.place.by_air(data.type[row])[node].service_duration();
         Int here = stops[sortie.launch].node;
         for (Int place = 0; place <= sortie.count; ++place) {
             const Int there =
                 place < sortie.count ? sortie.nodes[place] : stops[sortie.recovery].node;
-            const Int further = leg(flights, here, node).distance +
-                                leg(flights, node, there).distance -
-                                leg(flights, here, there).distance;
-            const double cost =
-                flown_cost(data.rate[row], further) - most_saved(data, now, slot, node);
+            const TravelLegs& onward = place < sortie.count ? flights : homeward;
+            const Leg more =
+                leg(flights, here, node) + leg(onward, node, there) - leg(onward, here, there);
+            const Int longer = flying.delay(sortie.recovery, over + more.duration, s + 1);
+            double cost =
+                flown_cost(data.rate[row], more.distance) - most_saved(data, now, slot, node);
+            cost +=
+                usual_work_cost(data.rate[row], std::max(Int{0}, speeds.left_of(longer) - idle));
             here = there;
             if (cost >= best) continue;
             if (place > 0 && tiers_of(data) > 0) {

@@ -294,15 +294,43 @@ bool leave_in_hours(const Truck& truck, const Stop& stop, TimeSegment done, Bloc
     return true;
 }
 
-// Write how long the truck waits for drones in a block, at all stops but the last. In place.
-void note_idle(NodeTable places, View<Stop, 1> stops, Int first, Int last) {
-    Int idle = stops[first].d;
-    for (Int p = first; p <= last; ++p) {
-        if (stops[p].kind == customer_stop) idle -= places[stops[p].node].service_duration();
-        if (p < last) idle -= stops[p].gap;
+// Return how long the truck stays at a stop at least, whenever it comes: for its own service, and
+// for sorties of one drone from there back to there.
+Int least_stay(const Truck& truck, const Stop& stop, View<const Sortie, 1> sorties, Int p) {
+    Int looping = 0, drone = nowhere;
+    for (const Sortie& sortie : sorties) {
+        if (sortie.launch > p) break;
+        if (sortie.launch < p || sortie.recovery > p) continue;
+        if (drone == nowhere) drone = sortie.drone;
+        if (sortie.drone != drone) continue;
+        const DroneData drone_data = truck.drone_data(sortie);
+        const Int flown =
+            sortie.ready_d - sortie.takeoff_d +
+            leg(drone_data.homeward, sortie.nodes[sortie.count - 1], stop.node).duration;
+        looping += recovery_end(drone_data.type, take_off(drone_data.type, flown, 0));
     }
-    for (Int p = first; p < last; ++p) stops[p].idle = idle;
-    stops[last].idle = 0;
+    const Int served = stop.kind == customer_stop ? truck.places[stop.node].service_duration() : 0;
+    return std::max(served, looping);
+}
+
+// Write how long the truck waits for drones in a block behind each stop, where it is left at its
+// `idle`. In place.
+//
+// Where windows hold it up, nobody knows: it may come later.
+void note_idle(const Truck& truck, View<Stop, 1> stops, View<const Sortie, 1> sorties, Int first,
+               Int last, bool is_held) {
+    if (is_held) {
+        for (Int p = first; p <= last; ++p) stops[p].idle = far;
+        return;
+    }
+    Int behind = 0;
+    for (Int p = last; p > first; --p) {
+        const Stop& before = stops[p - 1];
+        const Int stay = stops[p].idle - before.idle - before.gap;
+        stops[p].idle = behind;
+        behind += stay - least_stay(truck, stops[p], sorties, p);
+    }
+    stops[first].idle = behind;
 }
 
 // Return the zones with hours to which a sortie comes that is launched at a node.
@@ -364,6 +392,7 @@ Int time_block(const Truck& truck, View<Stop, 1> stops, View<Sortie, 1> sorties,
     sums.hi = sums.dep = far;
     sums.lo = none;
     sums.flying = 0;
+    bool is_held = false;
     Int p = first;
     while (true) {
         Stop& stop = stops[p];
@@ -396,6 +425,8 @@ Int time_block(const Truck& truck, View<Stop, 1> stops, View<Sortie, 1> sorties,
         d = std::max(served_d, sums.free_d);
         c = std::max(served_c, sums.free_c);
         stop.leave = std::max(time + d, c);
+        stop.idle = d;
+        is_held = is_held || c > time + d;
         stop.flying = sums.flying;
         stop.latest = far;
         stop.early = none;
@@ -424,7 +455,7 @@ Int time_block(const Truck& truck, View<Stop, 1> stops, View<Sortie, 1> sorties,
     begun.hi = sums.hi;
     begun.lo = sums.lo;
     begun.dep = sums.dep;
-    note_idle(truck.places, stops, first, p);
+    note_idle(truck, stops, sorties, first, p, is_held);
     return p;
 }
 

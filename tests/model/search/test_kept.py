@@ -31,7 +31,7 @@ def begun(problem: Problem, data: ProblemData) -> Searcher:
 
 
 @pytest.mark.parametrize(("variant", "seed"), [
-    ("soft", 3), ("soft", 4), ("multitrip", 4), ("drone", 3), ("mixed", 4)])
+    ("soft", 3), ("soft", 4), ("multitrip", 4), ("drone", 5), ("mixed", 4)])
 def test_places_kept_are_the_cheapest_where_more_than_distance_counts(variant: str,
                                                                       seed: int) -> None:
     problem = generate(np.random.default_rng(seed), 50, variant)
