@@ -190,6 +190,8 @@ def as_written(value: Any) -> Any:
 def _vehicles(of: Changing, change: Change) -> Found:
     keys = (*of.subject, "vehicles")
     vehicles = of.at(keys)
+    if vehicles is None:
+        raise NowhereError  # on a day under way, another vehicle has it aboard
     if vehicles.allowed is not None:
         return [((*keys, "allowed"), {"to": [*vehicles.allowed, *change.names]})]
     left = [name for name in vehicles.forbidden if name not in change.names]

@@ -133,6 +133,7 @@ def test_nothing_is_changed_where_the_request_has_no_place_for_it() -> None:
     request = PlanRequest.model_validate_json(json.dumps(request_of({}, {}, shipments=[shipment])))
     changing = Changing.of(Stated(request), "van", "s", is_shipment=True)
     assert changing.changes(remedy_of("end_window", "pickup", 60_000)) == []
+    assert changing.changes(remedy_of("vehicles", "van")) == []
     (change,) = changing.changes(remedy_of("end_window", "pickup mill", 60_000))
     assert change["path"] == "$.shipments[0].pickups[1].time_window.latest"
 
