@@ -139,7 +139,10 @@ bool any_too_long(const ProblemData& data, const Tour& tour) {
     });
 }
 
-bool hold_trips(const ProblemData& data, const Tour& tour) {
+namespace {
+
+// As `hold_trips`, one trip after another.
+bool hold_in_turn(const ProblemData& data, const Tour& tour) {
     const VehicleType& type = data.type[tour.route.type];
     const bool charging = charges_between_trips(type);
     Charge charge = charging ? first_charge(type, 0) : Charge{};
@@ -149,6 +152,19 @@ bool hold_trips(const ProblemData& data, const Tour& tour) {
         if (charging) charge = charge_behind(data, tour, trip, charge);
     }
     return true;
+}
+
+}  // namespace
+
+bool hold_trips(const ProblemData& data, const Tour& tour) {
+    if (!hold_in_turn(data, tour)) return false;
+    const VehicleType& type = data.type[tour.route.type];
+    if (!rests_in_time(type) && !has_driving_rules(type)) return true;
+    const auto lasts_too_long = [&](const Trip& trip) { return most_excess(data, tour, trip) > 0; };
+    const View<const Trip, 1> made = tour.trips.first(tour.route.trips);
+    if (std::ranges::none_of(made, lasts_too_long)) return true;
+    // A trip that was held moved a rest to one before it.
+    return hold_in_turn(data, tour) && std::ranges::none_of(made, lasts_too_long);
 }
 
 }  // namespace tandem
