@@ -32,7 +32,7 @@ struct Flying {
         return recovery_end(type, take_off(type, free, 0) + flown);
     }
 
-    // Returns until when the truck may leave a stop without being later where all drones are aboard.
+    // Returns until when the truck may leave a stop and be no later where all drones are aboard.
     Int left(Int p) const { return stops[p].leave + stops[p].idle; }
 
     // Returns how much later the truck is there at least if its drone is free at stop `p` then, and
