@@ -295,11 +295,11 @@ bool leave_in_hours(const Truck& truck, const Stop& stop, TimeSegment done, Bloc
 }
 
 // Return how long the truck stays at a stop at least, whenever it comes: for its own service, and
-// for sorties of one drone from there back to there.
-Int least_stay(const Truck& truck, const Stop& stop, View<const Sortie, 1> sorties, Int p) {
+// for sorties of one drone, none before number `s`, from there back to there.
+Int least_stay(const Truck& truck, const Stop& stop, View<const Sortie, 1> sorties, Int p, Int s) {
     Int looping = 0, drone = nowhere;
-    for (const Sortie& sortie : sorties) {
-        if (sortie.launch > p) break;
+    for (; s < sorties.size() && sorties[s].launch <= p; ++s) {
+        const Sortie& sortie = sorties[s];
         if (sortie.launch < p || sortie.recovery > p) continue;
         if (drone == nowhere) drone = sortie.drone;
         if (sortie.drone != drone) continue;
@@ -316,19 +316,15 @@ Int least_stay(const Truck& truck, const Stop& stop, View<const Sortie, 1> sorti
 // Write how long the truck waits for drones in a block behind each stop, where it is left at its
 // `idle`. In place.
 //
-// Where windows hold it up, nobody knows: it may come later.
+// The block's first sortie is number `s`.
 void note_idle(const Truck& truck, View<Stop, 1> stops, View<const Sortie, 1> sorties, Int first,
-               Int last, bool is_held) {
-    if (is_held) {
-        for (Int p = first; p <= last; ++p) stops[p].idle = far;
-        return;
-    }
+               Int last, Int s) {
     Int behind = 0;
     for (Int p = last; p > first; --p) {
         const Stop& before = stops[p - 1];
         const Int stay = stops[p].idle - before.idle - before.gap;
         stops[p].idle = behind;
-        behind += stay - least_stay(truck, stops[p], sorties, p);
+        behind += stay - least_stay(truck, stops[p], sorties, p, s);
     }
     stops[first].idle = behind;
 }
@@ -392,6 +388,7 @@ Int time_block(const Truck& truck, View<Stop, 1> stops, View<Sortie, 1> sorties,
     sums.hi = sums.dep = far;
     sums.lo = none;
     sums.flying = 0;
+    const Int oldest = sums.oldest;
     bool is_held = false;
     Int p = first;
     while (true) {
@@ -426,7 +423,7 @@ Int time_block(const Truck& truck, View<Stop, 1> stops, View<Sortie, 1> sorties,
         c = std::max(served_c, sums.free_c);
         stop.leave = std::max(time + d, c);
         stop.idle = d;
-        is_held = is_held || c > time + d;
+        is_held = is_held || c > time + d;  // by windows
         stop.flying = sums.flying;
         stop.latest = far;
         stop.early = none;
@@ -455,7 +452,12 @@ Int time_block(const Truck& truck, View<Stop, 1> stops, View<Sortie, 1> sorties,
     begun.hi = sums.hi;
     begun.lo = sums.lo;
     begun.dep = sums.dep;
-    note_idle(truck, stops, sorties, first, p, is_held);
+    if (is_held) {
+        // Nobody knows how long it waits: it may come later.
+        for (Int q = first; q <= p; ++q) stops[q].idle = far;
+    } else {
+        note_idle(truck, stops, sorties, first, p, oldest);
+    }
     return p;
 }
 
