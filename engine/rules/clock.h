@@ -107,7 +107,8 @@ struct Speeds {
         if (is_steady(type) || delay <= 0) return delay;
         const auto [slowest, fastest] =
             std::minmax_element(factors.data(), factors.data() + num_changes(type) + 1);
-        return delay * *slowest / *fastest;
+        // An unreachable leg's delay may not be multiplied as it is.
+        return delay / *fastest * *slowest + delay % *fastest * *slowest / *fastest;
     }
 
     // How long so much driving lasts at most that takes `duration` at full speed on some legs.
