@@ -183,8 +183,8 @@ void tell_route(const ProblemData& data, const Fleet& fleet, Int slot, Int vehic
     const Route& route = fleet.route[slot];
     const VehicleType& type = data.type[route.type];
     const View<Stop, 1> stops = fleet.stop[slot];
-    const Speeds speeds{type, data.profile_time[route.type], data.profile_factor[route.type]};
-    RouteTeller told(plan, speeds, route.type, vehicle, told_stop(data, stops, 0).arrival);
+    RouteTeller told(plan, speeds_of(data, route.type), route.type, vehicle,
+                     told_stop(data, stops, 0).arrival);
     for (const Trip& trip : trips_of(fleet, slot)) {
         const bool is_charged = shares_chargers(type);
         told.trip(is_charged ? trip.charged_from : 0, is_charged ? trip.charged_until : 0);

@@ -70,7 +70,7 @@ struct FlownTo {
     // At most, beside what is driven, flown and worked.
     const double saved = most_saved(data, searcher.now, slot, node);
     const Int idle = idle_time(route);  // how long the route could work longer at no cost
-    const Speeds speeds{data.type[k], data.profile_time[k], data.profile_factor[k]};
+    const Speeds speeds = speeds_of(data, k);
 };
 
 // Sorties to a customer by drones of a row on a route.

@@ -145,10 +145,12 @@ void offer_stops(const Insertion& insertion, Int slot, Int first, Int last) {
     const View<const Stop, 1> stops = now.stop[slot];
     const Newcomer newcomer = newcomer_for(data, data.type[k], node);
     const Room room = room_on(data, now, slot, k, node);
-    const Speeds speeds{data.type[k], data.profile_time[k], data.profile_factor[k]};
-    const LeastCost least{data,   newcomer,
-                          k,      spare_time(data, tour_of(now, slot)),
-                          speeds, most_saved(data, now, slot, node)};
+    const LeastCost least{data,
+                          newcomer,
+                          k,
+                          spare_time(data, tour_of(now, slot)),
+                          speeds_of(data, k),
+                          most_saved(data, now, slot, node)};
     const Int most = longest_trip(data.type[k]) - now.trip(slot, stops[first].trip).distance;
     for (Int p = first; p <= last; ++p) {
         const Stop &here = stops[p], &behind = stops[p + 1];
@@ -171,7 +173,7 @@ void offer_joining(const Insertion& insertion, Int slot) {
     const View<const Stop, 1> stops = now.stop[slot];
     const View<const Sortie, 1> sorties = now.sortie[slot];
     const Int idle = idle_time(now.route[slot]);
-    const Speeds speeds{data.type[k], data.profile_time[k], data.profile_factor[k]};
+    const Speeds speeds = speeds_of(data, k);
     for (Int s = 0; s < now.route[slot].sorties; ++s) {
         const Sortie& sortie = sorties[s];
         const Int row = row_of_drone(data.type, k, sortie.drone);
@@ -196,12 +198,13 @@ void offer_joining(const Insertion& insertion, Int slot) {
             const TravelLegs& onward = place < sortie.count ? flights : homeward;
             const Leg more =
                 leg(flights, here, node) + leg(onward, node, there) - leg(onward, here, there);
-            const Int longer = flying.delay(sortie.recovery, over + more.duration, s + 1);
+            here = there;
             double cost =
                 flown_cost(data.rate[row], more.distance) - most_saved(data, now, slot, node);
+            if (cost >= best) continue;
+            const Int longer = flying.delay(sortie.recovery, over + more.duration, s + 1);
             cost +=
                 usual_work_cost(data.rate[row], std::max(Int{0}, speeds.left_of(longer) - idle));
-            here = there;
             if (cost >= best) continue;
             if (place > 0 && tiers_of(data) > 0) {
                 may_carry = can_carry(data, row, sortie, place, node);

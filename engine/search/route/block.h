@@ -41,7 +41,7 @@ struct Truck {
     NodeTable own = data.place[0];  // by the service durations that are customers' own
     // What its first drones meet.
     DroneData drones = drone_data_at(data, first_drone_row(data.type, k));
-    Speeds speeds{type, data.profile_time[k], data.profile_factor[k]};
+    Speeds speeds = speeds_of(data, k);
     bool alike = !are_several(type);            // all of its drones
     bool resting = rests_in_time(type);         // whether times hang on where its driver pauses
     bool follows = follows_driver(type);        // and on how far it has come before

@@ -158,8 +158,7 @@ bool hold_in_turn(const ProblemData& data, const Tour& tour) {
 
 bool hold_trips(const ProblemData& data, const Tour& tour) {
     if (!hold_in_turn(data, tour)) return false;
-    const VehicleType& type = data.type[tour.route.type];
-    if (!rests_in_time(type) && !has_driving_rules(type)) return true;
+    if (!may_pause(data.type[tour.route.type])) return true;
     const auto lasts_too_long = [&](const Trip& trip) { return most_excess(data, tour, trip) > 0; };
     const View<const Trip, 1> made = tour.trips.first(tour.route.trips);
     if (std::ranges::none_of(made, lasts_too_long)) return true;

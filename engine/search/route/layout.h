@@ -14,6 +14,7 @@
 
 #include "deadline.h"
 #include "rows.h"
+#include "rules/clock.h"
 #include "rules/fairness.h"
 #include "rules/leg.h"
 #include "rules/load.h"
@@ -136,6 +137,11 @@ struct ProblemData : ProblemTables, tandem_problem_data {
 
 inline ProblemData data_of(const tandem_problem_data& from) {
     return {from.problem, from, from.problem.node, Deadline(from.deadline)};
+}
+
+// How fast a type drives.
+inline Speeds speeds_of(const ProblemData& data, Int k) {
+    return {data.type[k], data.profile_time[k], data.profile_factor[k]};
 }
 
 // How many rows there are, as `model/search/route/room.py` counts them.

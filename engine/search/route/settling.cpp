@@ -246,7 +246,7 @@ private:
     const View<Stop, 1> stops_ = tour_.stops.first(route_.length);
     const VehicleType& type_ = data_.type[route_.type];
     const bool resting_ = rests_in_time(type_);
-    const bool may_lose_ = resting_ || has_driving_rules(type_);
+    const bool may_lose_ = may_pause(type_);
     const bool by_end_ = resting_ && route_.sorties > 0;
     const Int most_ = lags_count(data_) ? halvings_with_lags
                       : resting_        ? halvings_with_breaks
