@@ -81,7 +81,7 @@ inline LegRow legs_to(const Legs& legs, Int m, Int node) {
 }
 
 // A leg of one travel.
-inline Leg leg(const TravelLegs& legs, Int origin, Int to) {
+[[gnu::always_inline]] inline Leg leg(const TravelLegs& legs, Int origin, Int to) {
     const Int entry = 2 * (origin * legs.nodes + to);
     if (legs.stated != nullptr) return stated_leg(legs.stated + entry);
     if (legs.table != nullptr) return {legs.table[entry], legs.table[entry + 1]};

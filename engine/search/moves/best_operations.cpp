@@ -14,6 +14,7 @@ BestOperations::BestOperations(const ProblemData& data, PartScratch& scratch)
       part_(scratch.part),
       scratch_(scratch),
       rate_(data.rate[part_.type]),
+      by_(data, part_.type),
       customers_(Spot(part_.customers)),
       spots_(Spot(part_.customers + part_.halts + 2)),
       sets_(Int{1} << part_.customers),
@@ -90,14 +91,11 @@ double BestOperations::way_cost(const PartScratch::Via& by) const {
 
 // Find how long flights take from each place to each other.
 void BestOperations::find_flights() {
-    const VehicleType& type = data_.type[part_.type];
     for (Spot from = 0; from < last(); ++from) {
         for (Spot customer = 1; customer <= customers_; ++customer) {
-            const Windows place = data_.place.by_air(type)[node(customer)];
             for (Spot to = 1; to < spots_; ++to) {
                 flight(from, customer, to) =
-                    way_by_air(data_, type, place, node(from), node(customer), node(to))
-                        .flight.duration();
+                    way_by_air(by_, node(from), node(customer), node(to)).flight.duration();
             }
         }
     }
@@ -139,8 +137,7 @@ PartScratch::Across BestOperations::best_across(Spot from, unsigned set, Spot to
         if (usual_work_cost(rate_, working) + drive_cost(rate_, by.distance) >= best.cost) continue;
         const Drive drive{by.duration, by.distance, std::popcount(inner)};
         const double cost =
-            cost_across(data_, part_.type, node(from), node(flown), node(to), drive) +
-            stop_cost(to);
+            cost_across(by_, node(from), node(flown), node(to), drive) + stop_cost(to);
         if (cost < best.cost) best = {cost, flown};
     }
     return best;
@@ -190,7 +187,7 @@ void BestOperations::go_on_from(unsigned set, Spot from) {
             reach(then, customer, {before + drive_on(from, customer), set, from, no_spot});
         }
         if (flies(customer)) {
-            const double loop = loop_cost(data_, part_.type, node(from), node(customer));
+            const double loop = loop_cost(by_, node(from), node(customer));
             reach(then, from, {before + loop, set, from, customer});
         }
     }

@@ -85,6 +85,7 @@ private:
     const PartToPlan& part_;
     PartScratch& scratch_;
     Rate rate_;
+    OperationData by_;
     Spot customers_, spots_;
     Int sets_;
     unsigned all_;

@@ -10,9 +10,14 @@ constexpr std::int32_t nobody = -1;
 // A stop of the truck as operations see it.
 struct OperationStop {
     std::int32_t node;
-    std::int32_t
-        flown;   // whom the drone serves meanwhile, if an operation begins here; or `nobody`
-    bool joint;  // truck and drone are both here, so that one ends and the next begins
+    std::int32_t flown;  // whom the drone serves meanwhile, from here on, or `nobody`
+    bool joint;          // truck and drone are both here, so that one ends and the next begins
+    double cost = 0.0;   // of the operation that begins here, where that was priced
+
+    // Whether a stop is as another, whatever is known of its cost.
+    bool is_as(const OperationStop& other) const {
+        return node == other.node && flown == other.flown && joint == other.joint;
+    }
 };
 
 // The stops of a trip, or of some of its operations from a joint stop to another.

@@ -14,17 +14,35 @@ namespace tandem {
 
 constexpr double infinite_cost = std::numeric_limits<double>::infinity();
 
+// What operations of trucks of type `k` go by, looked up once.
+struct OperationData {
+    OperationData(const ProblemData& data, Int k)
+        : data(&data),
+          type(&data.type[k]),
+          rate(&data.rate[k]),
+          by_truck(data.place.by_truck(*type)),
+          by_air(data.place.by_air(*type)),
+          drive(legs_of(data.leg, type->travel)),
+          out(legs_of(data.leg, type->drone_travel)),
+          home(legs_of(data.leg, type->home_travel)) {}
+
+    const ProblemData* data;
+    const VehicleType* type;
+    const Rate* rate;
+    NodeTable by_truck, by_air;
+    TravelLegs drive, out, home;
+};
+
 // A flight to a customer and back to the truck, and how far that is.
 struct WayByAir {
     Flight flight;
     Int distance;
 };
 
-inline WayByAir way_by_air(const ProblemData& data, const VehicleType& type, Windows place,
-                           Int from, Int customer, Int to) {
-    const Leg out = leg(legs_of(data.leg, type.drone_travel), from, customer);
-    const Leg home = leg(legs_of(data.leg, type.home_travel), customer, to);
-    return {{type, place, out.duration, home.duration}, out.distance + home.distance};
+inline WayByAir way_by_air(const OperationData& by, Int from, Int customer, Int to) {
+    const Leg out = leg(by.out, from, customer), home = leg(by.home, customer, to);
+    return {{*by.type, by.by_air[customer], out.duration, home.duration},
+            out.distance + home.distance};
 }
 
 // Return what it costs to come so far, be served and drive to the next stop.
@@ -34,18 +52,18 @@ inline double driven_on(const Rate& rate, double before, const Leg& way, Int ser
 }
 
 // Return what a flight costs for which the truck waits at a stop.
-inline double loop_cost(const ProblemData& data, Int k, Int node, Int customer) {
-    const VehicleType& type = data.type[k];
-    const Rate& rate = data.rate[k];
-    const auto [flight, distance] =
-        way_by_air(data, type, data.place.by_air(type)[customer], node, customer, node);
+inline double loop_cost(const OperationData& by, Int node, Int customer) {
+    const ProblemData& data = *by.data;
+    const VehicleType& type = *by.type;
     if (!data.strategy.loops || !is_launch_place(data.no_launch, node) ||
-        !in_range(data, type, node, customer) || !flight.can_serve()) {
+        !in_range(data, type, node, customer)) {
         return infinite_cost;
     }
+    const auto [flight, distance] = way_by_air(by, node, customer, node);
+    if (!flight.can_serve()) return infinite_cost;
     const Int duration = flight.duration();
-    return usual_work_cost(rate, duration + handling_duration(type)) +
-           airborne_cost(rate, duration) + flown_cost(rate, distance);
+    return usual_work_cost(*by.rate, duration + handling_duration(type)) +
+           airborne_cost(*by.rate, duration) + flown_cost(*by.rate, distance);
 }
 
 // Return how much longer a truck is at a stop where it launches its drone than that takes, less the
@@ -72,18 +90,17 @@ struct Drive {
 
 // Return what it costs to go from one node to another while the drone serves a customer; infinite
 // if that can't be.
-inline double cost_across(const ProblemData& data, Int k, Int from, Int customer, Int to,
+inline double cost_across(const OperationData& by, Int from, Int customer, Int to,
                           const Drive& drive) {
-    const VehicleType& type = data.type[k];
-    const Rate& rate = data.rate[k];
-    if (waits_for_drones(type) || !in_range(data, type, from, customer) ||
-        !in_range(data, type, to, customer)) {
+    const VehicleType& type = *by.type;
+    const Rate& rate = *by.rate;
+    if (waits_for_drones(type) || !in_range(*by.data, type, from, customer) ||
+        !in_range(*by.data, type, to, customer)) {
         return infinite_cost;
     }
-    const auto [flight, distance] =
-        way_by_air(data, type, data.place.by_air(type)[customer], from, customer, to);
-    const Int service = data.place.by_truck(type)[from].service_duration();
-    const Int away = drive.duration + stay_beside_launch(type, service);
+    const auto [flight, distance] = way_by_air(by, from, customer, to);
+    const Int away =
+        drive.duration + stay_beside_launch(type, by.by_truck[from].service_duration());
     const Int back = flight.duration();
     const Int airborne = std::max(back, away);
     if (!within_endurance(type, 0, back, airborne) || !flight.can_wait(airborne - back)) {

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "search/moves/operations.h"
+#include "search/moves/operation_prices.h"
 #include "search/moves/rewrite.h"
 
 namespace tandem {
@@ -72,10 +72,19 @@ void SmallMoves::add_trip(Int node) {
     const View<OperationStop, 1> rows = searcher_.scratch->operations;
     const auto part = [&](Int number) { return OperationRow(rows.part(number * room, room), 0); };
     Changing& added = trip(num_trips_);
-    added = {slot, there.first, there.last,           type,
-             0,    Amount{},    part(2 * num_trips_), part(2 * num_trips_ + 1),
-             false};
-    if (!read(added) || cost(type, added.row) == infinite_cost) return;
+    added = {slot,
+             there.first,
+             there.last,
+             type,
+             0,
+             Amount{},
+             part(2 * num_trips_),
+             part(2 * num_trips_ + 1),
+             false,
+             OperationData(data_, type)};
+    if (!read(added)) return;
+    price(*added.by, added.row);
+    if (cost(type, added.row, 0, added.row.length() - 1) == infinite_cost) return;
     note(num_trips_, 0, added.row.length() - 1);
     customers_ += added.customers;
     ++num_trips_;
@@ -320,7 +329,9 @@ bool SmallMoves::decide(std::initializer_list<const Draft*> drafts) {
     bool moved = false;
     for (const Draft* draft : drafts) {
         const TripSpan& span = draft->span;
-        more += cost(trip(span.trip).type, draft->row) - draft->before;
+        const Changing& source = trip(span.trip);
+        price_changed(*source.by, source.row, span.first, span.last, draft->row);
+        more += cost(source.type, draft->row, 0, draft->row.length() - 1) - draft->before;
         moved = moved || draft->row.length() != span.last - span.first + 1;
     }
     if (more > 0.0 && uniform(searcher_.rng) >= std::exp(-more / searcher_.value->temperature)) {
@@ -384,8 +395,9 @@ SmallMoves::Draft SmallMoves::draft(Int number, TripSpan span) const {
     const Int room = data_.num_nodes + more_places;
     const View<OperationStop, 1> rows = searcher_.scratch->drafts;
     Draft draft{span, {rows.part(number * room, room), 0}, 0.0};
-    draft.row.copy(trip(span.trip).row, span.first, span.last);
-    draft.before = cost(trip(span.trip).type, draft.row);
+    const Changing& source = trip(span.trip);
+    draft.row.copy(source.row, span.first, span.last);
+    draft.before = cost(source.type, source.row, span.first, span.last);
     return draft;
 }
 
@@ -409,49 +421,17 @@ bool SmallMoves::may_serve(Int number, Int node, bool flown) const {
     return data_.can(trip(number).type, flown ? 1 : 0, node);
 }
 
-// Return what operations of a truck of type `k` cost.
-double SmallMoves::cost(Int k, const OperationRow& row) const {
+// Return what the operations of a truck of type `k` from one stop to another cost, once priced.
+double SmallMoves::cost(Int k, const OperationRow& row, Int first, Int last) const {
     double sum = 0.0;
-    for (Int begin = 0; begin < row.length() - 1;) {
-        const Int end = row.end_behind(begin);
-        const auto [across, waiting] = costs(k, row, begin, end);
-        sum += std::min(across, waiting);
-        begin = end;
-    }
+    for (Int place = first; place < last; place = row.end_behind(place)) sum += row[place].cost;
     if (data_.vehicle_cost.empty()) return sum;
-    for (Int place = 0; place < row.length(); ++place) {
+    for (Int place = first; place <= last; ++place) {
         const OperationStop& stop = row[place];
         sum += data_.vehicle_cost(k, stop.node);
         if (stop.flown != nobody) sum += data_.vehicle_cost(k, stop.flown);
     }
     return sum;
-}
-
-// Return what an operation costs where the drone flies across, if it flies, and where the truck
-// doesn't leave before it is back, or nobody is flown to.
-SmallMoves::Costs SmallMoves::costs(Int k, const OperationRow& row, Int begin, Int end) const {
-    const TravelLegs legs = legs_of(data_.leg, data_.type[k].travel);
-    const NodeTable places = data_.place.by_truck(data_.type[k]);
-    const OperationStop& from = row[begin];
-    Drive drive{0, 0, end - begin - 1};
-    for (Int place = begin; place < end; ++place) {
-        const Leg way = leg(legs, row[place].node, row[place + 1].node);
-        drive.duration += places[row[place].node].service_duration() + way.duration;
-        drive.distance += way.distance;
-    }
-    Costs costs{infinite_cost, infinite_cost};
-    if (from.flown != nobody && data_.strategy.crossings &&
-        is_launch_place(data_.no_launch, from.node) &&
-        is_launch_place(data_.no_launch, row[end].node)) {
-        costs.across = cost_across(data_, k, from.node, from.flown, row[end].node, drive);
-    }
-    if (end == begin + 1) {
-        const Rate& rate = data_.rate[k];
-        costs.waiting = usual_work_cost(rate, drive.duration) + drive_cost(rate, drive.distance);
-        if (from.flown != nobody) costs.waiting += loop_cost(data_, k, from.node, from.flown);
-    }
-    const double stop = data_.rate[k].stop;
-    return {costs.across + stop, costs.waiting + stop};
 }
 
 // Write the trips that were changed, as they were at best if that is better than ever before. In
@@ -485,8 +465,7 @@ bool SmallMoves::write(const Changing& trip, const OperationRow& row) const {
             }
             if (stop.flown == nobody) continue;
             const Int end = row.end_behind(place);
-            const auto [across, waiting] = costs(trip.type, row, place, end);
-            const Int to = waiting < across ? p : p + end - place;
+            const Int to = waits(*trip.by, row, place, end) ? p : p + end - place;
             if (!add_sortie(sequence, p, to, 0, stop.flown)) return false;
         }
         return true;

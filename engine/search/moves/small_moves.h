@@ -7,8 +7,10 @@
 #pragma once
 
 #include <initializer_list>
+#include <optional>
 
 #include "randomness.h"
+#include "search/moves/operations.h"
 #include "search/scratch.h"
 
 namespace tandem {
@@ -35,6 +37,7 @@ private:
         OperationRow row;
         OperationRow best;  // as it was when all cost least
         bool is_changed;
+        std::optional<OperationData> by;  // what its operations cost
     };
 
     // Stops of a trip, both included.
@@ -47,11 +50,6 @@ private:
         TripSpan span;
         OperationRow row;
         double before;
-    };
-
-    // What an operation costs, infinite where it can't be so.
-    struct Costs {
-        double across, waiting;
     };
 
     void gather();
@@ -88,8 +86,7 @@ private:
     static Int find(const OperationRow& row, Int node);
     bool remove(OperationRow& row, Int node) const;
     bool may_serve(Int number, Int node, bool flown) const;
-    double cost(Int k, const OperationRow& row) const;
-    Costs costs(Int k, const OperationRow& row, Int begin, Int end) const;
+    double cost(Int k, const OperationRow& row, Int first, Int last) const;
 
     const ProblemData& data_;
     Searcher& searcher_;

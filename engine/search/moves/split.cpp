@@ -33,12 +33,11 @@ Int place_near(const ProblemData& data, View<const Line, 1> line, Int count, Int
 
 // Return what it costs to go from place `i` to `j` while the drone serves place `flown`; infinite
 // if that can't be.
-double cost_across(const ProblemData& data, Int k, View<const Line, 1> line, Int i, Int j,
-                   Int flown) {
+double cost_across(const OperationData& by, View<const Line, 1> line, Int i, Int j, Int flown) {
     const Line &from = line[i], &spared = line[flown], &to = line[j];
     const Drive drive{to.drive - from.drive - spared.spared_drive,
                       to.distance - from.distance - spared.spared_distance, j - i - 1};
-    return cost_across(data, k, from.node, spared.node, to.node, drive);
+    return cost_across(by, from.node, spared.node, to.node, drive);
 }
 
 }  // namespace
@@ -96,23 +95,22 @@ void measure(const ProblemData& data, Int k, View<Line, 1> line, Int length) {
 }
 
 double present_cost(const ProblemData& data, Int k, View<const Line, 1> line, Int length) {
-    const Rate& rate = data.rate[k];
-    const TravelLegs legs = legs_of(data.leg, data.type[k].travel);
-    const NodeTable places = data.place.by_truck(data.type[k]);
+    const OperationData by(data, k);
+    const Rate& rate = *by.rate;
     double cost = 0.0;
     for (Int j = length - 1; j > 0; j = line[j].before) {
         const Int i = line[j].before;
         if (line[j].flight != no_flight) {
-            cost += cost_across(data, k, line, i, j, line[j].flight);
+            cost += cost_across(by, line, i, j, line[j].flight);
             continue;
         }
         const Int here = line[i].node;
-        const Leg way = leg(legs, here, line[j].node);
-        cost += usual_work_cost(rate, way.duration + places[here].service_duration()) +
+        const Leg way = leg(by.drive, here, line[j].node);
+        cost += usual_work_cost(rate, way.duration + by.by_truck[here].service_duration()) +
                 drive_cost(rate, way.distance);
         cost += rate.stop;
         for (Int place = i + 1; place < j; ++place) {
-            cost += loop_cost(data, k, here, line[place].node);
+            cost += loop_cost(by, here, line[place].node);
         }
     }
     return cost;
@@ -148,7 +146,7 @@ struct EndedOperation {
 class Splitting {
 public:
     Splitting(const ProblemData& data, Int k, View<Line, 1> line, Int length, SplitScratch& scratch)
-        : data_(data), k_(k), line_(line), length_(length), scratch_(scratch) {}
+        : data_(data), by_(data, k), line_(line), length_(length), scratch_(scratch), k_(k) {}
 
     // Let operations begin where the line does.
     void begin() { begin_at(0, 0.0); }
@@ -209,12 +207,11 @@ private:
     //
     // Those that begin nearest are tried first, which mostly rules out the others.
     void drive_to(Int j, EndedOperation& best) {
-        const TravelLegs legs = legs_of(data_.leg, type_.travel);
         for (Int i = j - 1; i >= std::max(Int{0}, j - longest_operation); --i) {
             const double before = loop(i, j, best.cost);
             if (!(before <= best.cost)) continue;
             const Int here = line_[i].node;
-            const double cost = driven_on(rate_, before, leg(legs, here, line_[j].node),
+            const double cost = driven_on(rate_, before, leg(by_.drive, here, line_[j].node),
                                           places_[here].service_duration());
             if (cost <= best.cost) best = {cost, i, no_flight};
         }
@@ -227,8 +224,7 @@ private:
         Int& until = scratch_.looped_until[i];
         for (; until < j && scratch_.cost[i] + loops <= most; ++until) {
             const Int customer = line_[until].node;
-            loops +=
-                flies_[customer] ? loop_cost(data_, k_, line_[i].node, customer) : infinite_cost;
+            loops += flies_[customer] ? loop_cost(by_, line_[i].node, customer) : infinite_cost;
         }
         return scratch_.cost[i] + loops;
     }
@@ -301,18 +297,17 @@ private:
             return false;
         }
         if (!is_limited(type_)) return true;
-        const Flight flight = way_by_air(data_, type_, places_by_air_[customer], line_[i].node,
-                                         customer, line_[j].node)
-                                  .flight;
+        const Flight flight = way_by_air(by_, line_[i].node, customer, line_[j].node).flight;
         const Int drive = line_[j].drive - line_[flown].spared_drive - Int(scratch_.drive[i]);
         return flight.can_wait(std::max(Int{0}, drive - flight.duration()));
     }
 
     const ProblemData& data_;
-    const Int k_;
+    const OperationData by_;
     const View<Line, 1> line_;
     const Int length_;
     SplitScratch& scratch_;
+    const Int k_;
     const VehicleType& type_ = data_.type[k_];
     const Rate rate_ = data_.rate[k_];
     const View<const bool, 1> drives_ = data_.can[k_][0];

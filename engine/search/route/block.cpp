@@ -295,12 +295,11 @@ bool leave_in_hours(const Truck& truck, const Stop& stop, TimeSegment done, Bloc
 }
 
 // Return how long the truck stays at a stop at least, whenever it comes: for its own service, and
-// for sorties of one drone, none before number `s`, from there back to there.
-Int least_stay(const Truck& truck, const Stop& stop, View<const Sortie, 1> sorties, Int p, Int s) {
+// for sorties of one drone from there, of those `launched`, back to there.
+Int least_stay(const Truck& truck, const Stop& stop, View<const Sortie, 1> launched) {
     Int looping = 0, drone = nowhere;
-    for (; s < sorties.size() && sorties[s].launch <= p; ++s) {
-        const Sortie& sortie = sorties[s];
-        if (sortie.launch < p || sortie.recovery > p) continue;
+    for (const Sortie& sortie : launched) {
+        if (sortie.recovery > sortie.launch) continue;
         if (drone == nowhere) drone = sortie.drone;
         if (sortie.drone != drone) continue;
         const DroneData drone_data = truck.drone_data(sortie);
@@ -313,18 +312,17 @@ Int least_stay(const Truck& truck, const Stop& stop, View<const Sortie, 1> sorti
     return std::max(served, looping);
 }
 
-// Write how long the truck waits for drones in a block behind each stop, where it is left at its
-// `idle`. In place.
-//
-// The block's first sortie is number `s`.
+// Write how long the truck waits for drones in a block, whose sorties are given, behind each stop,
+// where it is left at its `idle`. In place.
 void note_idle(const Truck& truck, View<Stop, 1> stops, View<const Sortie, 1> sorties, Int first,
-               Int last, Int s) {
-    Int behind = 0;
+               Int last) {
+    Int behind = 0, launched = sorties.size();
     for (Int p = last; p > first; --p) {
         const Stop& before = stops[p - 1];
-        const Int stay = stops[p].idle - before.idle - before.gap;
+        const Int stay = stops[p].idle - before.idle - before.gap, until = launched;
+        while (launched > 0 && sorties[launched - 1].launch == p) --launched;
         stops[p].idle = behind;
-        behind += stay - least_stay(truck, stops[p], sorties, p, s);
+        behind += stay - least_stay(truck, stops[p], sorties.part(launched, until - launched));
     }
     stops[first].idle = behind;
 }
@@ -456,7 +454,7 @@ Int time_block(const Truck& truck, View<Stop, 1> stops, View<Sortie, 1> sorties,
         // Nobody knows how long it waits: it may come later.
         for (Int q = first; q <= p; ++q) stops[q].idle = far;
     } else {
-        note_idle(truck, stops, sorties, first, p, oldest);
+        note_idle(truck, stops, sorties.part(oldest, sums.oldest - oldest), first, p);
     }
     return p;
 }
