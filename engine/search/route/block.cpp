@@ -314,15 +314,22 @@ Int least_stay(const Truck& truck, const Stop& stop, View<const Sortie, 1> launc
 
 // Write how long the truck waits for drones in a block, whose sorties are given, behind each stop,
 // where it is left at its `idle`. In place.
+//
+// Of drones that fly in turn, the next takes off as much later as the last is recovered.
 void note_idle(const Truck& truck, View<Stop, 1> stops, View<const Sortie, 1> sorties, Int first,
                Int last) {
+    const bool in_turn = most_airborne(truck.type) == 1;
     Int behind = 0, launched = sorties.size();
     for (Int p = last; p > first; --p) {
         const Stop& before = stops[p - 1];
         const Int stay = stops[p].idle - before.idle - before.gap, until = launched;
         while (launched > 0 && sorties[launched - 1].launch == p) --launched;
         stops[p].idle = behind;
-        behind += stay - least_stay(truck, stops[p], sorties.part(launched, until - launched));
+        if (in_turn && p < last && launched > 0 && sorties[launched - 1].recovery == p) {
+            behind = sorties[launched - 1].begin - stops[p].arrival;
+        } else {
+            behind += stay - least_stay(truck, stops[p], sorties.part(launched, until - launched));
+        }
     }
     stops[first].idle = behind;
 }
