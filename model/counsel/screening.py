@@ -157,8 +157,8 @@ class Screen:
         begin, end, fixed = kind.begins_at, kind.ends_at, kind.fixed_cost if is_new else 0.0
         legs = self._legs_of(kind.travel)
         hours = legs.there[begin] + kind.service_at(self._customer) + legs.back[end]
-        cost = (fixed + (legs.far_there[begin] + legs.far_back[end]) * kind.cost_per_km / MM_PER_KM
-                + kind.cost_per_stop + hours * kind.cost_per_hour / MS_PER_HOUR)
+        cost = (fixed + price_of(kind, legs.far_there[begin] + legs.far_back[end], hours)
+                + kind.cost_per_stop)
         yield Guess(0, cost, hours, Place(vehicle, number, "truck", 1, own_trip=True))
         if "drone" not in self._means:
             return
@@ -196,8 +196,7 @@ class Screen:
             push = start + kind.service_at(customer) + legs.back[after.node] - after.arrival
             too_late = max(0, arrival - customer.latest)
             late = (too_late if hard else 0) + max(0, push - slacks[index])
-            cost = (detour * kind.cost_per_km / MM_PER_KM + push * kind.cost_per_hour / MS_PER_HOUR
-                    + kind.cost_per_stop
+            cost = (price_of(kind, detour, push) + kind.cost_per_stop
                     + too_late * (customer.late_cost_per_hour or 0.0) / MS_PER_HOUR
                     + (customer.late_cost if too_late else 0.0)
                     + (start - arrival) * customer.early_cost_per_hour / MS_PER_HOUR)
@@ -217,8 +216,7 @@ class Screen:
         legs = self._legs_of(drones.travel)
         duration = legs.there[launch] + drones.service_at(self._customer) + legs.back[recovery]
         distance = legs.far_there[launch] + legs.far_back[recovery]
-        return duration, (distance * drones.cost_per_km / MM_PER_KM
-                          + duration * drones.cost_per_hour / MS_PER_HOUR)
+        return duration, price_of(drones, distance, duration)
 
     def _by_drone(self, vehicle: Vehicle, number: int, trip: Trip, drones: DroneType, first: int,
                   first_stop: int) -> Iterator[Guess]:
@@ -267,12 +265,16 @@ class Screen:
                 added = legs.there[here] + legs.back[there] - duration
                 detour = legs.far_there[here] + legs.far_back[there] - straight
                 if added < UNREACHABLE // 2:
-                    cost = (detour * drones.cost_per_km / MM_PER_KM
-                            + added * drones.cost_per_hour / MS_PER_HOUR)
                     airborne = sortie.recovery_start - sortie.launch_time
-                    yield Guess(max(0, airborne + added - drones.endurance), cost, added,
+                    yield Guess(max(0, airborne + added - drones.endurance),
+                                price_of(drones, detour, added), added,
                                 Place(vehicle, number, "drone", sortie.launch_stop,
                                       sortie.recovery_stop, sortie.drone, index, visit))
+
+
+def price_of(by: DroneType | VehicleType, distance: int, duration: int) -> float:
+    """Return what a way costs."""
+    return distance * by.cost_per_km / MM_PER_KM + duration * by.cost_per_hour / MS_PER_HOUR
 
 
 def share_over(share: float, until: float) -> float:
