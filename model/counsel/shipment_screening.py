@@ -6,28 +6,23 @@ places are on the trip as it is without the shipment, and its ends are put there
 
 import math
 import time
-from collections import defaultdict
+from collections import defaultdict, deque
 from collections.abc import Iterable, Iterator, Sequence
-from itertools import chain, groupby, islice, permutations, product, takewhile
+from itertools import chain, islice, pairwise, permutations, product, takewhile
 from math import prod
 
 from model.counsel.screening import (
-    ANYHOW, BY_TRUCK, SPANS, Guess, Screen, Wanted, first_drones, free_drone, of_any, share_over,
-    slacks_of,
+    ANYHOW, BY_TRUCK, SPANS, Guess, Screen, Wanted, first_drones, free_drone, of_any, price_of,
+    share_over,
 )
-from model.judge.clock import service_start
-from model.judge.loads import trip_loads
-from model.judge.metrics import allowed_overtime
 from model.judge.past import Past, Vehicle
 from model.judge.places import Means, Place
-from model.problem import MM_PER_KM, MS_PER_HOUR, UNREACHABLE, Problem, Shipment
-from model.solution import Solution, Stop, Trip
+from model.problem import Problem, Shipment, VehicleType
+from model.problem.travel import Matrix
+from model.solution import Route, Solution, Stop, Trip
 
 _TripOf = tuple[Vehicle, int, bool]
 """Whose trip, its index, and whether it is one more that it comes before."""
-
-Ends = tuple[tuple[int, Place], ...]
-"""Nodes and places, in the order of visits."""
 
 MOST_WAYS = 4000
 """So many ways to put a shipment are all looked at; where there are more, those of single ends that
@@ -42,8 +37,8 @@ SINGLE_ENDS = 0.5
 KEPT_PICKUPS = 30
 """So many ways to choose places for several pickups before one of a delivery are combined then."""
 
-MOST_ORDERS, MOST_ORDERS_ALONE = 6, 24
-"""Orders in which several pickups follow each other, beside others and alone."""
+MOST_ORDERS = 24
+"""Orders in which several pickups at one place follow each other."""
 
 
 class ShipmentScreen:
@@ -55,10 +50,11 @@ class ShipmentScreen:
         self._shipment = shipment
         self._past = past
         self._wanted = wanted
-        self._trips: dict[Vehicle, tuple[Trip, ...]] = {}
-        for route in solution.routes:
-            self._trips.setdefault(Vehicle(route.vehicle_type, route.vehicle), route.trips)
         self._solution = solution
+        self._may_be_flown = problem.customer_at(shipment.delivery).served_by != "truck"
+        self._routes: dict[Vehicle, Route] = {}
+        for route in solution.routes:
+            self._routes.setdefault(Vehicle(route.vehicle_type, route.vehicle), route)
 
     def guesses(self, until: float = math.inf) -> dict[tuple[Vehicle, Means], list[Guess]]:
         """Return the places of each vehicle, by truck and with drones, the best ones first.
@@ -85,8 +81,7 @@ class ShipmentScreen:
         nodes = self._shipment.nodes
         for end, node in enumerate(nodes):
             means = BY_TRUCK if self._problem.customer_at(node).served_by == "truck" else ANYHOW
-            screen = Screen(self._problem, self._solution, node, self._past, means,
-                            self._wanted)
+            screen = Screen(self._problem, self._solution, node, self._past, means, self._wanted)
             for guess in chain.from_iterable(screen.guesses(until).values()):
                 key = guess.place.vehicle, guess.place.trip, guess.place.own_trip
                 by_trip.setdefault(key, [[] for _ in nodes])[end].append(guess)
@@ -101,14 +96,14 @@ class ShipmentScreen:
 
     def _on_trip(self, trip: _TripOf, ends: Sequence[Sequence[Guess]],
                  are_all: bool) -> Iterator[Guess]:
+        """Yield all ends at once on a trip."""
         vehicle, number, own_trip = trip
-        row = _Row(self._problem, vehicle, None if own_trip else self._trips[vehicle][number],
-                   vehicle not in self._trips)
+        kind = self._problem.vehicle_types[vehicle.type]
+        known = (Trip(tuple([Stop(node, 0, 0, 0) for node in (kind.begins_at, kind.ends_at)]))
+                 if own_trip else self._routes[vehicle].trips[number])
         *pickups, deliveries = ends
-        nodes = self._shipment.nodes
-        flown_on = [] if self._problem.customer_at(nodes[-1]).served_by == "truck" else [
-            (on, end) for end, some in enumerate(pickups) for guess in some
-            for on in row.flown_on(nodes[end], nodes[-1], guess.place)]
+        flown_on = [(on, end) for end, some in enumerate(pickups) for each in some
+                    for on in self._flown_on(kind, known, self._shipment.nodes[end], each.place)]
         for last, source in chain(((each, None) for each in deliveries), flown_on):
             before = [[guess for guess in some if _is_before(guess.place, last.place) and (
                 end != source or (guess.place.by, guess.place.stop) == ("truck", last.place.stop))]
@@ -117,27 +112,78 @@ class ShipmentScreen:
                 each = max(1, int(KEPT_PICKUPS ** (1 / len(before))))
                 before = [sorted(some, key=lambda guess: guess.rank)[:each] for some in before]
             for chosen in product(*before):
-                guesses = (*chosen, last)
-                for ordered in self._orders(row, guesses):
-                    yield row.looked_at(guesses, ordered)
-        if len(nodes) == 2 and self._problem.customer_at(nodes[1]).served_by != "truck":
+                yield from self._together(kind, known, (*chosen, last))
+        if len(pickups) == 1 and self._may_be_flown:
             for guess in pickups[0]:
-                yield from row.by_one_flight(nodes, guess)
+                if guess.place.by == "drone" and guess.place.sortie is None and (
+                        kind.drone_type(guess.place.drone).max_customers_per_sortie > 1):
+                    yield self._in_one_flight(kind, known, guess)
 
-    def _orders(self, row: "_Row", guesses: Sequence[Guess]) -> Iterator[Ends]:
-        """Yield the ends in the order of their visits: pickups at one place in several orders."""
+    def _together(self, kind: VehicleType, trip: Trip, guesses: Sequence[Guess]
+                  ) -> Iterator[Guess]:
+        """Yield what all ends look like at places that are guessed at one by one, in some orders.
+
+        Who is driven to next to another is a detour from there. Of many orders those come first
+        that begin with the nearest.
+        """
+        late, cost, duration = map(sum, zip(*[guess[:3] for guess in guesses], strict=True))
+        travel = self._problem.travel[kind.travel]
         *pickups, last = [(node, guess.place) for node, guess
                           in zip(self._shipment.nodes, guesses, strict=True)]
-        if len(pickups) == 1:
-            yield pickups[0], last
+        pickups.sort(key=lambda end: travel.duration.item(trip.stops[end[1].stop - 1].node, end[0]))
+        orders = [tuple(sorted(order, key=lambda end: end[1].stop))
+                  for order in islice(permutations(pickups), MOST_ORDERS)]
+        for order in dict.fromkeys(orders):
+            ends, less, nearer = (*order, last), 0, 0
+            for (one, there), (other, place) in pairwise(ends):
+                if there.by == place.by == "truck" and there.stop == place.stop:
+                    before, after = (trip.stops[stop].node for stop in (place.stop - 1, place.stop))
+                    less += (_detour(travel.duration, before, other, after)
+                             - _detour(travel.duration, one, other, after))
+                    nearer += (_detour(travel.distance, before, other, after)
+                               - _detour(travel.distance, one, other, after))
+            by: Means = "truck" if all(place.by == "truck" for _, place in ends) else "drone"
+            yield Guess(late, cost - price_of(kind, nearer, less), duration - less,
+                        ends[0][1]._replace(by=by, ends=ends))
+
+    def _flown_on(self, kind: VehicleType, trip: Trip, pickup: int, place: Place
+                  ) -> Iterator[Guess]:
+        """Yield flights that deliver from where the truck picks up at a place."""
+        if place.by == "drone" or not self._may_be_flown or not self._problem.may_launch_at(pickup):
             return
-        pickups.sort(key=lambda end: end[1].stop)
-        beside = [list(some) for _, some in groupby(pickups, key=lambda end: end[1].stop)]
-        most = MOST_ORDERS_ALONE if last[1].own_trip else MOST_ORDERS
-        ways = product(*[chain([row.nearest_first(some)], islice(permutations(some), most))
-                         if len(some) > 1 else [some] for some in beside])
-        for way in dict.fromkeys(tuple(chain(*groups)) for groups in islice(ways, most + 1)):
-            yield *way, last
+        delivery, launch = self._shipment.delivery, place.stop - 0.5
+        behind = place.stop if kind.truck_waits else min(place.stop + SPANS - 1, len(trip.stops))
+        for first, drones in first_drones(kind):
+            legs, among = self._problem.travel[drones.travel], range(first, first + drones.count)
+            for back in range(place.stop - 1, behind):
+                to = pickup if back < launch else trip.stops[back].node
+                drone = free_drone(trip, among, launch, max(launch, back))
+                if drone is None or not self._problem.may_launch_at(to):
+                    continue
+                duration, distance = (matrix.item(pickup, delivery) + matrix.item(delivery, to)
+                                      for matrix in (legs.duration, legs.distance))
+                duration += drones.service_at(self._problem.customer_at(delivery))
+                cost = price_of(drones, distance, duration) + (
+                    price_of(kind, 0, duration) if back < launch else 0.0)
+                yield Guess(max(0, duration - drones.endurance), cost, duration, place._replace(
+                    by="drone", recovery=back, drone=drone, flown_on=True))
+
+    def _in_one_flight(self, kind: VehicleType, trip: Trip, guess: Guess) -> Guess:
+        """Return that a drone which fetches a shipment brings it on the same flight."""
+        (pickup, delivery), place = self._shipment.nodes, guess.place
+        drones, home = kind.drone_type(place.drone), trip.stops[place.recovery].node
+        legs = self._problem.travel[drones.travel]
+        more = (_detour(legs.duration, pickup, delivery, home)
+                + drones.service_at(self._problem.customer_at(delivery)))
+        far = _detour(legs.distance, pickup, delivery, home)
+        return Guess(guess.late, guess.cost + price_of(drones, far, more), guess.duration + more,
+                     place._replace(ends=((pickup, place._replace(sortie=len(trip.sorties))),
+                                          (delivery, place))))
+
+
+def _detour(legs: Matrix, before: int, node: int, after: int) -> int:
+    """Return what it takes more to come by a node."""
+    return legs.item(before, node) + legs.item(node, after) - legs.item(before, after)
 
 
 def _promise(ends: Sequence[Sequence[Guess]]) -> tuple[float, ...]:
@@ -148,14 +194,12 @@ def _promise(ends: Sequence[Sequence[Guess]]) -> tuple[float, ...]:
 
 def _in_turn(trips: Iterable[Iterator[Guess]]) -> Iterator[Guess]:
     """Yield the first guess of each trip, then the second of each, and so on."""
-    left = [*trips]
+    left = deque(trips)
     while left:
-        going_on = []
-        for trip in left:
-            for guess in islice(trip, 1):
-                yield guess
-                going_on.append(trip)
-        left = going_on
+        trip = left.popleft()
+        for guess in islice(trip, 1):
+            yield guess
+            left.append(trip)
 
 
 def _likeliest(guesses: Sequence[Guess]) -> list[Guess]:
@@ -178,150 +222,3 @@ def _is_before(pickup: Place, delivery: Place) -> bool:
         return delivery.stop >= pickup.stop
     leaves_there = delivery.by == "drone" and not delivery.flown_on
     return delivery.stop >= pickup.recovery + (0 if leaves_there else 1)
-
-
-class _Row:
-    """The stops of one trip, or of one that is to be made, and what changes with further ones."""
-
-    def __init__(self, problem: Problem, vehicle: Vehicle, trip: Trip | None,
-                 is_new: bool) -> None:
-        kind = problem.vehicle_types[vehicle.type]
-        self._problem, self._kind, self._vehicle, self._trip = problem, kind, vehicle, trip
-        self._travel = problem.travel[kind.travel]
-        latest = kind.latest + allowed_overtime(kind)
-        self._flights = 0
-        if trip is None:
-            begin = kind.earliest
-            self._stops: tuple[Stop, ...] = tuple([
-                Stop(node, begin, begin, begin) for node in (kind.begins_at, kind.ends_at)])
-            self._slacks = [latest - begin] * 2
-            self._loads = [(0,) * problem.num_dimensions] * 2
-        else:
-            self._stops, self._flights = trip.stops, len(trip.sorties)
-            self._slacks = slacks_of(problem, latest, trip)
-            self._loads = trip_loads(problem, kind, trip)
-        self._fixed = kind.fixed_cost if is_new else 0.0
-
-    def looked_at(self, guesses: Sequence[Guess], ordered: Ends) -> Guess:
-        """Return what all ends at some places look like, which are guessed at one by one."""
-        first = ordered[0][1]
-        if all(place.by == "truck" for _, place in ordered):
-            late, cost, pushed = self._driven(ordered)
-            return Guess(late, cost, pushed, first._replace(ends=ordered))
-        return Guess(sum(guess.late for guess in guesses), sum(guess.cost for guess in guesses),
-                     sum(guess.duration for guess in guesses),
-                     first._replace(by="drone", ends=ordered))
-
-    def by_one_flight(self, nodes: tuple[int, ...], guess: Guess) -> Iterator[Guess]:
-        """Yield that a drone which fetches a shipment on a flight of its own brings it, too."""
-        place = guess.place
-        if place.by == "truck" or place.sortie is not None:
-            return
-        drones = self._kind.drone_type(place.drone)
-        pickup, delivery = nodes
-        legs = self._problem.travel[drones.travel]
-        home = self._stops[place.recovery].node
-        added = (legs.duration.item(pickup, delivery) + legs.duration.item(delivery, home)
-                 - legs.duration.item(pickup, home)
-                 + drones.service_at(self._problem.customer_at(delivery)))
-        if drones.max_customers_per_sortie < 2 or added >= UNREACHABLE // 2:
-            return
-        far = (legs.distance.item(pickup, delivery) + legs.distance.item(delivery, home)
-               - legs.distance.item(pickup, home))
-        cost = (guess.cost + far * drones.cost_per_km / MM_PER_KM
-                + added * drones.cost_per_hour / MS_PER_HOUR)
-        beside = place._replace(sortie=self._flights)
-        yield Guess(guess.late, cost, guess.duration + added,
-                    place._replace(ends=((pickup, beside), (delivery, place))))
-
-    def flown_on(self, pickup: int, delivery: int, place: Place) -> Iterator[Guess]:
-        """Yield flights that deliver from where the truck picks up at a place."""
-        if place.by == "drone" or not self._problem.may_launch_at(pickup):
-            return
-        launch = place.stop - 0.5
-        behind = (place.stop if self._kind.truck_waits
-                  else min(place.stop + SPANS - 1, len(self._stops)))
-        for first, drones in first_drones(self._kind):
-            legs, among = self._problem.travel[drones.travel], range(first, first + drones.count)
-            for back in range(place.stop - 1, behind):
-                to = pickup if back < launch else self._stops[back].node
-                free = first if self._trip is None else free_drone(
-                    self._trip, among, launch, max(launch, back))
-                duration = (legs.duration.item(pickup, delivery) + legs.duration.item(delivery, to)
-                            + drones.service_at(self._problem.customer_at(delivery)))
-                if (free is None or duration >= UNREACHABLE
-                        or not self._problem.may_launch_at(to)):
-                    continue
-                far = legs.distance.item(pickup, delivery) + legs.distance.item(delivery, to)
-                waits = duration if back < launch else 0
-                cost = (far * drones.cost_per_km / MM_PER_KM
-                        + duration * drones.cost_per_hour / MS_PER_HOUR
-                        + waits * self._kind.cost_per_hour / MS_PER_HOUR)
-                yield Guess(max(0, duration - drones.endurance), cost, duration, place._replace(
-                    by="drone", recovery=back, drone=free, flown_on=True))
-
-    def nearest_first(self, ends: Sequence[tuple[int, Place]]) -> list[tuple[int, Place]]:
-        """Return ends at one place, each next one nearest to the one before."""
-        left, ordered = [*ends], list[tuple[int, Place]]()
-        at = self._stops[ends[0][1].stop - 1].node
-        while left:
-            nearest = min(left, key=lambda end: self._travel.duration.item(at, end[0]))
-            left.remove(nearest)
-            ordered.append(nearest)
-            at = nearest[0]
-        return ordered
-
-    def _driven(self, ends: Ends) -> tuple[int, float, int]:
-        """Return by how much too late the truck would be, what it would cost, how long it takes.
-
-        Too much aboard is told as an hour.
-        """
-        place = ends[0][1].stop
-        start = self._stops[place - 1]
-        at, now, late, far, cost = start.node, start.departure, 0, 0, self._fixed
-        aboard = [0] * self._problem.num_dimensions
-        for node, where in ends:
-            for index in range(place, where.stop):
-                stop = self._stops[index]
-                far += self._far(at, stop.node) - self._far(self._stops[index - 1].node, stop.node)
-                now, missed = self._reached(at, stop.node, now, stop.departure - stop.service_start)
-                late, at = late + missed + self._overload(aboard, index), stop.node
-            place = where.stop
-            far += self._far(at, node)
-            customer = self._problem.customer_at(node)
-            now, missed = self._reached(at, node, now, self._kind.service_at(customer))
-            change = self._problem.shipment_at[node].change_at(node)
-            aboard = [sum(amounts) for amounts in zip(aboard, change, strict=True)]
-            late += missed + self._overload(aboard, place - 1)
-            cost += self._kind.cost_per_stop + self._problem.vehicle_cost(self._vehicle.type, node)
-            at = node
-        after = self._stops[place]
-        far += self._far(at, after.node) - self._far(self._stops[place - 1].node, after.node)
-        arrival = now + self._leg(at, after.node)
-        pushed = arrival - after.arrival
-        late += max(0, pushed - self._slacks[place])
-        cost += (far * self._kind.cost_per_km / MM_PER_KM
-                 + pushed * self._kind.cost_per_hour / MS_PER_HOUR)
-        return late, cost, pushed
-
-    def _far(self, origin: int, to: int) -> int:
-        return self._travel.distance.item(origin, to)
-
-    def _leg(self, origin: int, to: int) -> int:
-        return self._travel.duration.item(origin, to) + self._problem.setup_between(origin, to)
-
-    def _reached(self, origin: int, to: int, left: int, stay: int) -> tuple[int, int]:
-        """Return when the truck leaves the next stop, and by how much it comes too late."""
-        arrival = left + self._leg(origin, to)
-        if to < self._problem.num_depots:
-            return arrival + stay, 0
-        customer = self._problem.customer_at(to)
-        is_hard = customer.late_cost_per_hour is None
-        return (service_start(customer, arrival) + stay,
-                max(0, arrival - customer.latest) if is_hard else 0)
-
-    def _overload(self, aboard: Sequence[int], index: int) -> int:
-        """Return an hour if more is aboard on leaving a stop than may be."""
-        return MS_PER_HOUR * any(
-            more and load + more > most for load, more, most
-            in zip(self._loads[index], aboard, self._kind.capacity, strict=True))
