@@ -26,7 +26,7 @@ from model.judge.check import check
 from model.judge.hubs import lacks_battery, lacks_charger
 from model.judge.metrics import unassigned_cost
 from model.judge.relations import kept_off, who_decides, who_waits
-from model.problem import MAX_MONEY, Problem, Shipment
+from model.problem import MAX_MONEY, Problem, Shipment, VehicleType
 from model.solution import Solution
 
 
@@ -178,10 +178,8 @@ def _by_way_of_others(problem: Problem, solution: Solution, passage: Passage,
         price = ceil(cost * 100) / 100
         return Reason(index, "COST", f"{way} at a cost of {price:.2f}; leaving those out who are "
                       f"costs {left_out:.2f}.")
-    used = _num_used(solution, index)
-    if used >= vehicle_type.count:
-        why = "it is" if vehicle_type.count == 1 else f"all {vehicle_type.count} are"
-        return Reason(index, "FLEET_EXHAUSTED", f"{way}, but {why} in use.")
+    if not _is_left(problem, solution, index):
+        return Reason(index, "FLEET_EXHAUSTED", f"{way}, but {_in_use(vehicle_type)}.")
     return Reason(index, "SEARCH", f"{way}, but the search did not find room for it.")
 
 
@@ -211,8 +209,7 @@ def _unused(problem: Problem, solution: Solution, index: int, node: int,
         way = f"A drone of {vehicle_type.id} could serve it from a stop at {hosts[0].id}"
     elif hosts:
         way = f"{vehicle_type.id} could serve it after {hosts[0].id}"
-    used = _num_used(solution, index)
-    lacking = _lacking_at_hub(problem, solution, index, used)
+    lacking = _lacking_at_hub(problem, solution, index)
     if lacking is not None:
         return replace(lacking, message=f"{way}, but {lacking.message}")
     return _not_worth(problem, solution, index, node, attempt, way)
@@ -223,18 +220,16 @@ def _not_worth(problem: Problem, solution: Solution, index: int, node: int, atte
     """Say what keeps the search from a way that keeps all rules."""
     vehicle_type, cost = problem.vehicle_types[index], attempt.evaluation.cost.total
     hosts = attempt.problem.customers[:-1] if not attempt.problem.shipments else ()
-    used = _num_used(solution, index)
     customer = problem.customer_at(problem.first_place(node))
     left_out = problem.cost_of_leaving_out(customer)
     is_dear = not hosts and cost >= left_out
     price = f"{ceil(cost * 100) / 100:.2f}"
     at_price = f"{way} at a cost of {price}; leaving it out costs {left_out:.2f}"
-    if used >= vehicle_type.count:
-        why = "it is" if vehicle_type.count == 1 else f"all {vehicle_type.count} are"
+    if not _is_left(problem, solution, index):
         if is_dear:
-            return Reason(index, "COST", f"{at_price}, and {why} in use.")
+            return Reason(index, "COST", f"{at_price}, and {_in_use(vehicle_type)}.")
         would_do = not hosts and vehicle_type.part_of in (None, vehicle_type.id)
-        return Reason(index, "FLEET_EXHAUSTED", f"{way}, but {why} in use.",
+        return Reason(index, "FLEET_EXHAUSTED", f"{way}, but {_in_use(vehicle_type)}.",
                       (remedy_of("count"),) if would_do else ())
     if is_dear:
         whose = "" if customer.unassigned_cost is None else "own_"
@@ -254,7 +249,7 @@ def _by_relation(problem: Problem, solution: Solution, index: int, node: int) ->
         why = f"It is to be served together with {names}, which {name} serves"
         room = ", and has no room for it" if vehicle.type == index else ""
         return Reason(index, "RELATION", f"{why}{room}.",
-                      _by_lag(problem, solution, index, node) if room else ())
+                      lag_remedy(problem, solution, index, node) if room else ())
     waiting = _out_of_order(problem, solution, index, node)
     if waiting is not None:
         return waiting
@@ -269,9 +264,8 @@ def _by_relation(problem: Problem, solution: Solution, index: int, node: int) ->
 def _unrelated(problem: Problem, solution: Solution, reason: Reason) -> Reason:
     """Return a reason with the remedy that relations bind nobody, where a vehicle is left."""
     index = reason.vehicle_type
-    used = _num_used(solution, index)
-    is_left = used < problem.vehicle_types[index].count
-    if not is_left or _lacking_at_hub(problem, solution, index, used) is not None:
+    if not _is_left(problem, solution, index) or (
+            _lacking_at_hub(problem, solution, index) is not None):
         return reason
     return reason.or_by(remedy_of("relations"))
 
@@ -286,23 +280,23 @@ def _out_of_order(problem: Problem, solution: Solution, index: int, node: int) -
         return None
     return Reason(index, "RELATION", f"{problem.vehicle_types[index].id} can't serve it in its "
                   f"order with {names}, as the plan serves these.",
-                  _by_lag(problem, solution, index, node))
+                  lag_remedy(problem, solution, index, node))
 
 
-def _by_lag(problem: Problem, solution: Solution, index: int, node: int) -> tuple[Remedy, ...]:
-    found = lag_remedy(problem, solution, index, node)
-    return () if found is None else (found,)
+def _in_use(kind: VehicleType) -> str:
+    return "it is in use" if kind.count == 1 else f"all {kind.count} are in use"
 
 
-def _num_used(solution: Solution, index: int) -> int:
-    """Return how many vehicles of a type a plan uses."""
-    return len({route.vehicle for route in solution.routes if route.vehicle_type == index})
+def _is_left(problem: Problem, solution: Solution, index: int) -> bool:
+    """Tell whether a plan doesn't use all vehicles of a type."""
+    used = {route.vehicle for route in solution.routes if route.vehicle_type == index}
+    return len(used) < problem.vehicle_types[index].count
 
 
-def _lacking_at_hub(problem: Problem, solution: Solution, index: int, used: int) -> Reason | None:
+def _lacking_at_hub(problem: Problem, solution: Solution, index: int) -> Reason | None:
     """Say what the depot of a type lacks for another of its vehicles; None if nothing."""
-    kind = problem.vehicle_types[index]
-    hub, is_left = problem.depots[kind.depot].id, used < kind.count
+    kind, is_left = problem.vehicle_types[index], _is_left(problem, solution, index)
+    hub = problem.depots[kind.depot].id
     if lacks_battery(problem, kind, solution):
         return Reason(index, "BATTERIES", f"no charged battery of {hub} is left.",
                       (remedy_of("hub_batteries", hub),) if is_left else ())

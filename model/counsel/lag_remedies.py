@@ -18,22 +18,22 @@ MOST_STOPS = 40
 """Of a route, among which a customer is tried."""
 
 
-def lag_remedy(problem: Problem, solution: Solution, index: int, node: int) -> Remedy | None:
-    """Return for which `max_lag` a vehicle of a type would serve a customer; None: for none known.
+def lag_remedy(problem: Problem, solution: Solution, index: int, node: int) -> tuple[Remedy, ...]:
+    """Return for which `max_lag` a vehicle of a type would serve a customer; none if none is known.
 
     As the plan serves the others; what is said is tried.
     """
     if not any(_limits(relation, node) for relation in problem.relations):
-        return None
+        return ()
     free = _with_lag(problem, node, MAX_QUANTITY)
     needed = _least_lag(free, solution, index, node)
     if needed is None:
-        return None
+        return ()
     needed = up_to_tenth(needed, MS_PER_MINUTE)
     if needed > MAX_QUANTITY or _least_lag(
             _with_lag(problem, node, needed), solution, index, node) is None:
-        return None
-    return remedy_of("lag", quantity=needed)
+        return ()
+    return (remedy_of("lag", quantity=needed),)
 
 
 def _limits(relation: Relation, node: int) -> bool:
