@@ -187,15 +187,21 @@ def _starts_of_shipment(problem: Problem) -> Iterator[int]:
     """Yield when a trip begins that reaches an end of a shipment as one of its windows opens."""
     kind, (first, second) = problem.vehicle_types[0], problem.customers
     pickup, delivery = range(problem.num_depots, problem.num_nodes)
-    duration, profile = problem.travel[0].duration, kind.speed_profile
     arrivals = [*first.openings]
     for opens in second.openings:
         left = leg_start(opens - problem.setup_between(pickup, delivery),
-                         duration.item(pickup, delivery), profile)
+                         problem.travel[0].duration.item(pickup, delivery), kind.speed_profile)
         arrivals.append(left - kind.service_at(first))
     for arrival in arrivals:
-        yield max(kind.earliest, leg_start(arrival - problem.setup_between(0, pickup),
-                                           duration.item(0, pickup), profile))
+        yield _start_for(problem, pickup, arrival)
+
+
+def _start_for(problem: Problem, node: int, arrival: int) -> int:
+    """Return when a trip begins that reaches a node at an instant, or as soon as it may."""
+    kind = problem.vehicle_types[0]
+    return max(kind.earliest, *[each.release_time for each in problem.customers],
+               leg_start(arrival - problem.setup_between(0, node),
+                         problem.travel[0].duration.item(0, node), kind.speed_profile))
 
 
 def attempts(problem: Problem, kind: int, node: int) -> Iterator[Attempt]:
@@ -256,15 +262,14 @@ def _try_truck_at(problem: Problem, opens: int) -> Iterator[Attempt]:
     vehicle_type, customer = problem.vehicle_types[0], problem.customers[0]
     profile, duration = vehicle_type.speed_profile, problem.travel[0].duration
     node, end = problem.num_depots, vehicle_type.ends_at
-    outward, homeward = duration.item(0, node), duration.item(node, end)
-    earliest = max(vehicle_type.earliest, customer.release_time)
-    setup = problem.setup_between(0, node)
-    start = max(earliest, leg_start(opens - setup - vehicle_type.launch_duration, outward, profile))
+    start = _start_for(problem, node, opens - vehicle_type.launch_duration)
     first = _judge_in_calm(problem, TripDecision((0, node, end), start=start), start)
     yield first
     if profile is None or first.codes != {"WORKING_DURATION"}:
         return
-    served = setup + vehicle_type.service_at(customer)
+    outward, homeward = duration.item(0, node), duration.item(node, end)
+    earliest = max(vehicle_type.earliest, customer.release_time)
+    served = problem.setup_between(0, node) + vehicle_type.service_at(customer)
     for change in profile.times:
         yield from (
             _judge(problem, TripDecision((0, node, end), start=start))
@@ -286,13 +291,9 @@ def _comes_second(problem: Problem, kind: int, customer: Customer) -> bool:
 
 def _try_after(problem: Problem) -> Attempt:
     """Return a trip to the first customer, then to the second."""
-    host, _ = problem.customers
-    vehicle_type, node = problem.vehicle_types[0], problem.num_depots
-    outward = problem.travel[0].duration.item(0, node)
-    start = max(vehicle_type.earliest, *(each.release_time for each in problem.customers),
-                leg_start(host.earliest - problem.setup_between(0, node), outward,
-                          vehicle_type.speed_profile))
-    return _judge(problem, TripDecision((0, node, node + 1, vehicle_type.ends_at), start=start))
+    node, end = problem.num_depots, problem.vehicle_types[0].ends_at
+    start = _start_for(problem, node, problem.customers[0].earliest)
+    return _judge(problem, TripDecision((0, node, node + 1, end), start=start))
 
 
 def _delivered_first(problem: Problem, kind: int, node: int) -> list[int]:
@@ -323,16 +324,12 @@ def _try_loop(problem: Problem, drones: DroneType, opens: int) -> Attempt:
 
 def _try_loop_from_site(problem: Problem, drones: DroneType, opens: int) -> Attempt:
     """Return a trip to the launch site with a loop to a customer, as its window opens."""
-    vehicle_type, node = problem.vehicle_types[0], problem.num_depots
-    site = problem.num_depots - 1
+    site, node, end = problem.num_depots - 1, problem.num_depots, problem.vehicle_types[0].ends_at
     approach = (launch_duration(drones, True) + problem.travel[1].duration.item(site, node)
                 + problem.setup_between(site, node))
     arrival = min(max(problem.depots[site].earliest, opens - approach), problem.depots[site].latest)
-    start = max(vehicle_type.earliest, problem.customers[0].release_time,
-                leg_start(arrival, problem.travel[0].duration.item(0, site),
-                          vehicle_type.speed_profile))
-    return _judge(problem, TripDecision((0, site, vehicle_type.ends_at),
-                                        (SortieDecision((node,), 1, 1),), start=start))
+    return _judge(problem, TripDecision((0, site, end), (SortieDecision((node,), 1, 1),),
+                                        start=_start_for(problem, site, arrival)))
 
 
 def _sites_near(problem: Problem, kind: int, drones: DroneType, node: int) -> list[int]:
@@ -347,19 +344,14 @@ def _sites_near(problem: Problem, kind: int, drones: DroneType, node: int) -> li
 
 def _try_loop_from_customer(problem: Problem, drones: DroneType, opens: int) -> Attempt:
     """Return a trip to the first customer with a loop to the second, as its window opens."""
-    vehicle_type, (host, customer) = problem.vehicle_types[0], problem.customers
+    (host, customer), end = problem.customers, problem.vehicle_types[0].ends_at
     there, node = problem.num_depots, problem.num_depots + 1
     approach = (launch_duration(drones, True) + problem.travel[1].duration.item(there, node)
                 + problem.setup_between(there, node))
     arrival = min(max(host.earliest, opens - approach), host.latest,
                   customer.latest - approach)
-    outward = problem.travel[0].duration.item(0, there)
-    start = max(vehicle_type.earliest, host.release_time, customer.release_time,
-                leg_start(arrival - problem.setup_between(0, there), outward,
-                          vehicle_type.speed_profile))
-    trip = TripDecision((0, there, vehicle_type.ends_at), (SortieDecision((node,), 1, 1),),
-                        start=start)
-    return _judge(problem, trip)
+    return _judge(problem, TripDecision((0, there, end), (SortieDecision((node,), 1, 1),),
+                                        start=_start_for(problem, there, arrival)))
 
 
 def _launch_places(
