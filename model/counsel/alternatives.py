@@ -12,7 +12,7 @@ from typing import Literal
 
 from model.counsel.bench import Bench, Drafted, Trial
 from model.counsel.group_moves import MovedUnit, companions_of, move_all
-from model.counsel.screening import Wanted, of_any, share_over
+from model.counsel.screening import Wanted, best_first, of_any, share_over
 from model.judge.clock import window_of
 from model.judge.past import Vehicle
 from model.judge.places import Means, Place
@@ -35,7 +35,7 @@ SCREENING_SHARE = 0.5
 """Share of the time in which places are guessed at, before any is tried."""
 
 ALONE_SHARE = 0.5
-"""Share of the time in which a customer is moved alone, before those who go with him are, too."""
+"""Share of the time in which a customer is put alone, before those who go with him are, too."""
 
 EVERYWHERE = frozenset({"VEHICLE", "SKILLS", "SERVED_BY"})
 """Rules that whoever breaks them with a vehicle breaks at all its places."""
@@ -216,8 +216,7 @@ def _windows_of(bench: Bench, node: int, until: float) -> tuple[list[Alternative
             continue
         problem = with_customers(bench.problem, {node: in_window(customer, window)})
         screened = share_over(SCREENING_SHARE, until)
-        guesses = sorted([guess for some in bench.guesses(problem, screened).values()
-                          for guess in some], key=lambda guess: guess.rank)
+        guesses = best_first(bench.guesses(problem, screened))
         is_complete &= time.perf_counter() < screened
         drafts: list[Drafted] = []
         for turn, guess in enumerate(guesses[:ALL_TRIES]):

@@ -15,7 +15,7 @@ from model.counsel.alternatives import Findings, here_of, visit_of
 from model.counsel.bench import Bench, Trial
 from model.counsel.flight_limits import hour_limits, hub_limits
 from model.counsel.lifting import lifted
-from model.counsel.screening import share_over
+from model.counsel.screening import best_first, share_over
 from model.counsel.work_limits import (
     between_limits, break_limits, duty_rules, fleet_limits, loosened, used_by,
 )
@@ -127,19 +127,13 @@ def _cost_with(bench: Bench, limit: Limit, places: Sequence[Place | None],
     if limit.gives_trips:
         wanted = [*_further_trips(bench, limit, until)]
     elif limit.unit == "rule" or limit.whose == "request":
-        wanted += _likeliest(bench, limit.problem, until)
+        likeliest = best_first(bench.guesses(limit.problem, until))[:MAX_LIFTED]
+        wanted += [guess.place for guess in likeliest]
     tried = [bench.finish(bench.draft(place, limit.problem), limit.problem, judged)
              for place in takewhile(lambda _: time.perf_counter() < until, dict.fromkeys(wanted))
              if place is not None]
     return min([trial.evaluation.cost.total for trial in tried if trial.evaluation.is_feasible],
                default=math.inf)
-
-
-def _likeliest(bench: Bench, problem: Problem, until: float) -> list[Place]:
-    """Return the places of all vehicles that look cheapest."""
-    guesses = [guess for some in bench.guesses(problem, until).values()
-               for guess in some]
-    return [guess.place for guess in sorted(guesses, key=lambda guess: guess.rank)[:MAX_LIFTED]]
 
 
 def _further_trips(bench: Bench, limit: Limit, until: float) -> Iterator[Place]:

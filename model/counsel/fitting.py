@@ -10,7 +10,7 @@ from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, replace
 from itertools import chain, islice, takewhile
 
-from model.counsel.alternatives import best_of, is_here, try_places
+from model.counsel.alternatives import ALONE_SHARE, best_of, is_here, try_places
 from model.counsel.bench import Bench, Drafted, Trial
 from model.counsel.priced import is_seen_by_search
 from model.counsel.group_moves import MovedUnit, companions_to, move_all, not_with
@@ -32,9 +32,6 @@ OFFERS_SHARE = 0.3
 FEW_TRIES = 3
 """Places that are tried of a vehicle for which the search finds none legal, by truck and so by
 drone: enough to say why not."""
-
-ALONE_SHARE = 0.5
-"""Share of the time in which a customer is put alone, before those who go with him are, too."""
 
 
 def spot_of(place: Place) -> tuple[object, ...]:

@@ -7,6 +7,7 @@ from itertools import product
 from typing import NamedTuple
 
 from model.counsel.bench import Bench, Drafted, Trial
+from model.counsel.screening import best_first
 from model.judge.check import JudgedRoute
 from model.judge.past import Vehicle
 from model.judge.places import find_place
@@ -154,8 +155,6 @@ def _without(bench: Bench, companions: tuple[MovedUnit, ...]) -> Way:
 
 def _drafts(bench: Bench, vehicle: Vehicle, tries: int, until: float) -> Iterator[Drafted]:
     """Yield routes of a vehicle with a customer or shipment at its likeliest places."""
-    guesses = [guess for some in bench.guesses(until=until, wanted=vehicle.__eq__).values()
-               for guess in some]
-    for guess in sorted(guesses, key=lambda guess: guess.rank)[:tries]:
+    for guess in best_first(bench.guesses(until=until, wanted=vehicle.__eq__))[:tries]:
         if time.perf_counter() < until:
             yield bench.draft(guess.place)

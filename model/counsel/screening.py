@@ -272,6 +272,11 @@ class Screen:
                                       sortie.recovery_stop, sortie.drone, index, visit))
 
 
+def best_first(guesses: Mapping[tuple[Vehicle, Means], list[Guess]]) -> list[Guess]:
+    """Return the places of all vehicles in one list."""
+    return sorted(chain.from_iterable(guesses.values()), key=lambda guess: guess.rank)
+
+
 def price_of(by: DroneType | VehicleType, distance: int, duration: int) -> float:
     """Return what a way costs."""
     return distance * by.cost_per_km / MM_PER_KM + duration * by.cost_per_hour / MS_PER_HOUR

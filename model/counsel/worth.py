@@ -6,7 +6,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 from model.counsel.bench import Bench, Setting, Trial
-from model.counsel.screening import BY_TRUCK, Screen
+from model.counsel.screening import BY_TRUCK, Screen, best_first
 from model.judge.check import JudgedRoute
 from model.problem import Problem
 from model.solution import Solution
@@ -68,10 +68,8 @@ def _best_by_truck(bench: Bench) -> Trial | None:
     """Return the cheapest legal plan that has a truck serve the customer."""
     screen = Screen(bench.problem, bench.left_out.solution, bench.node, bench.setting.past,
                     BY_TRUCK)
-    guesses = sorted([guess for some in screen.guesses().values() for guess in some],
-                     key=lambda guess: guess.rank)
     legal: list[Trial] = []
-    for turn, guess in enumerate(guesses[:MORE_TRIES]):
+    for turn, guess in enumerate(best_first(screen.guesses())[:MORE_TRIES]):
         if turn < TRIES or not legal:
             trial = bench.put(guess.place)
             legal += [trial] if trial.evaluation.is_feasible else []
