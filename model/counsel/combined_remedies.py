@@ -1,7 +1,6 @@
 """What several limits would have to be together for a trip that breaks more than one."""
 
 from collections.abc import Callable
-from typing import NamedTuple
 
 from model.counsel.diagnoses import DIAGNOSES
 from model.counsel.diagnosis import Diagnosis
@@ -16,32 +15,24 @@ MOST_LIMITS = 4
 Diagnose = Callable[[Attempt], Diagnosis | None]
 
 
-class _Step(NamedTuple):
-    """An attempt as limits have been changed so far, and how."""
-
-    attempt: Attempt
-    parts: tuple[Part, ...] = ()
-
-
 def combined_remedy(attempt: Attempt, diagnose: Diagnose) -> Remedy | None:
     """Return changes of several limits that suffice together; None: none are known.
 
     Each rule that the trip breaks is diagnosed once those before it are kept; `check` judges the
     trip by all changes.
     """
-    step = _Step(attempt)
-    while len(step.parts) < MOST_LIMITS:
-        diagnosis = diagnose(step.attempt)
+    tried, parts = attempt, tuple[Part, ...]()
+    while len(parts) < MOST_LIMITS:
+        diagnosis = diagnose(tried)
         if diagnosis is None or not diagnosis.remedy or diagnosis.problem is None:
-            last = rest_remedy(step.attempt)
-            return Remedy((*step.parts, last)) if last else None
-        if diagnosis.remedy in step.parts:
+            last = rest_remedy(tried)
+            return Remedy((*parts, last)) if last else None
+        if diagnosis.remedy in parts:
             return None
-        changed, solution = diagnosis.problem, attempt.solution
-        step = _Step(Attempt(changed, solution, check(changed, solution)),
-                     (*step.parts, diagnosis.remedy))
-        if not step.attempt.codes:
-            return Remedy(step.parts)
+        changed, parts = diagnosis.problem, (*parts, diagnosis.remedy)
+        tried = Attempt(changed, attempt.solution, check(changed, attempt.solution))
+        if not tried.codes:
+            return Remedy(parts)
     return None
 
 
