@@ -13,7 +13,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from model.counsel.bench import Bench, Setting, Trial
+from model.counsel.bench import Bench, Setting
 from model.judge.check import JudgedRoute
 from model.judge.past import Vehicle
 from model.problem import UNREACHABLE, Customer, DroneType, Problem, VehicleType
@@ -151,7 +151,8 @@ def _tried(problem: Problem, solution: Solution, index: int, nodes: list[int], s
             is_cut = True
             break
         bench = Bench(problem, solution, node, setting, judged)
-        trials = list(_flights(bench, vehicle))
+        flights = bench.guesses(wanted=vehicle.__eq__).get((vehicle, "drone"), [])
+        trials = [bench.put(guess.place) for guess in flights[:TRIES]]
         legal = [trial.evaluation.cost.total for trial in trials if trial.evaluation.is_feasible]
         if legal:
             more = min(legal) - bench.plan.evaluation.cost.total
@@ -170,12 +171,6 @@ def _tried(problem: Problem, solution: Solution, index: int, nodes: list[int], s
     code, _ = broken.most_common(1)[0]
     return Idle(index, code, f"No flight keeps all rules: to {problem.customer_at(at).id}, "
                 f"{message}.", at)
-
-
-def _flights(bench: Bench, vehicle: Vehicle) -> Iterator[Trial]:
-    """Yield plans in which a vehicle's drones fly to a customer, the likeliest flights."""
-    for guess in bench.guesses(wanted=vehicle.__eq__).get((vehicle, "drone"), [])[:TRIES]:
-        yield bench.put(guess.place)
 
 
 def _worth(problem: Problem, index: int, more: float, node: int) -> Idle:

@@ -4,6 +4,7 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
 
 from model.problem import Customer, Problem
+from model.problem.altered import with_customers
 
 
 def lifted(problem: Problem, nodes: Sequence[int]) -> Iterator[tuple[str, Problem]]:
@@ -37,9 +38,7 @@ def lifted(problem: Problem, nodes: Sequence[int]) -> Iterator[tuple[str, Proble
 def _with_all(problem: Problem, nodes: Sequence[int],
               change: Callable[[Customer], Customer]) -> Problem:
     """Return a problem in which some customers are changed."""
-    customers = [change(each) if node in nodes else each
-                 for node, each in enumerate(problem.customers, problem.num_depots)]
-    return replace(problem, customers=tuple(customers))
+    return with_customers(problem, {node: change(problem.customer_at(node)) for node in nodes})
 
 
 def _open_to_all(problem: Problem, nodes: Sequence[int]) -> Problem:

@@ -68,7 +68,7 @@ def _would_do(problem: Problem, index: int, route: Route, node: int, past: Past)
     """Tell whether a trip behind a vehicle's others serves a customer, and is worth its cost."""
     path, decision = f"routes[{index}]", read_route(problem, route)
     before = time_route(problem, decision, path, past)
-    broken = {(each.code, each.message) for each in before.judged.violations}
+    broken = _broken(before)
     most = before.judged.cost.total + problem.cost_of_leaving_out(problem.customer_at(node))
     kind = problem.vehicle_types[route.vehicle_type]
     for place in _places(kind, Vehicle(route.vehicle_type, route.vehicle), len(route.trips)):

@@ -11,6 +11,7 @@ from dataclasses import dataclass, replace
 from math import inf
 from typing import NamedTuple
 
+from model.counsel.alternatives import visit_of
 from model.counsel.bench import MOST_LEGS, Bench, Drafted, Trial
 from model.counsel.fitting import Fit, find_fits, new_violations
 from model.counsel.priced import Offer, is_seen_by_search, offers_of
@@ -191,10 +192,9 @@ class _SlotSearch:
             self._keep(_trial(bench, self._view.joined(self._search.plan(), slot)))
 
     def _keep(self, trial: Trial | None) -> None:
-        if trial is not None and trial.place is not None:
-            begins = next(visit.service_start for route in trial.solution.routes
-                          for visit in route.visits if visit.node == self._node)
-            self._found.append(_Found(trial, begins))
+        visit = None if trial is None else visit_of(trial, self._node)
+        if trial is not None and visit is not None:
+            self._found.append(_Found(trial, visit.service_start))
 
     def _more(self, slot: Customer) -> float:
         """Return what the cheapest plan found that keeps a slot costs more; infinite: none does."""

@@ -4,7 +4,6 @@ The search knows no order of some before others on whichever vehicle. So it plan
 there, and each new order then comes to the cheapest place that the judge finds legal.
 """
 
-import math
 import time
 from collections.abc import Iterable, Sequence
 from typing import NamedTuple
@@ -60,8 +59,7 @@ def put_after(problem: Problem, setting: Setting, known: tuple[Solution, Evaluat
         if time.perf_counter() >= until:
             break
         bench = Bench(problem, solution, order.nodes[0], setting, None, order.shipment)
-        share = share_over(1 / (len(orders) - number), until) if until < math.inf else until
-        for fit in find_fits(bench, 1, share).places:
+        for fit in find_fits(bench, 1, share_over(1 / (len(orders) - number), until)).places:
             trial = fit.trial
             if (not new_violations(bench, trial)
                     and trial.evaluation.cost.total <= evaluation.cost.total):
