@@ -354,9 +354,7 @@ def _try_loop_from_customer(problem: Problem, drones: DroneType, opens: int) -> 
                                         start=_start_for(problem, there, arrival)))
 
 
-def _launch_places(
-    problem: Problem, kind: int, drones: DroneType, node: int
-) -> Iterator[int]:
+def _launch_places(problem: Problem, kind: int, drones: DroneType, node: int) -> Iterator[int]:
     """Yield customers near enough to fly from, where a truck of this type may stop."""
     first, customer = problem.num_depots, problem.customer_at(node)
     skills = problem.vehicle_types[kind].skills
@@ -366,13 +364,8 @@ def _launch_places(
     if drones.max_range is not None:
         is_near &= problem.travel[drones.straight].distance[first:, node] <= drones.max_range
     near = np.flatnonzero(is_near)
-    found = 0
-    for index in near[np.argsort(loops[near], kind="stable")].tolist():
-        host = problem.customers[index]
-        if index + first == node or host.served_by == "drone" or not host.launch:
-            continue
-        if host.skills <= skills and problem.allows(kind, index + first):
-            yield index + first
-            found += 1
-            if found == MAX_LAUNCH_PLACES:
-                return
+    nearest = near[np.argsort(loops[near], kind="stable")] + first
+    hosts = (other for other in nearest.tolist()
+             if other != node and (host := problem.customer_at(other)).served_by != "drone"
+             and host.launch and host.skills <= skills and problem.allows(kind, other))
+    yield from islice(hosts, MAX_LAUNCH_PLACES)
