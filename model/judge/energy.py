@@ -5,7 +5,7 @@ from collections.abc import Sequence
 from typing import NamedTuple
 
 from model.judge.launches import launch_begins
-from model.judge.pairs import brought_within, change_aboard, flown_out
+from model.judge.pairs import change_aboard, fetched_before, flown_out
 from model.problem import DroneType, Energy, Problem, VehicleType
 from model.solution import Sortie, Stop, Trip, Visit
 
@@ -61,10 +61,10 @@ def hover_energy(energy: Energy, duration: int, weight: int) -> int:
 
 
 def weights_aboard(problem: Problem, energy: Energy, nodes: Sequence[int]) -> list[int]:
-    """Return what is aboard on each leg of a sortie to some customers, the way home last."""
+    """Return what is aboard on each leg of a flight to some customers, the way home last."""
     customers = [problem.customer_at(node) for node in nodes]
     # A truck's drone has from there what it delivers.
-    within = brought_within(problem, nodes) if problem.shipments else ()
+    within = fetched_before(problem, nodes) if problem.shipments else ()
     weights = [sum([(customer.demand if node in within else flown_out(problem, node))[
         energy.dimension] for node, customer in zip(nodes, customers, strict=True)])]
     for node, customer in zip(nodes, customers, strict=True):

@@ -17,18 +17,23 @@ def change_aboard(problem: Problem, node: int) -> tuple[int, ...] | None:
     return None if each is None else each.change_at(node)
 
 
+def fetched_before(problem: Problem, nodes: Sequence[int]) -> set[int]:
+    """Return the deliveries, on a flight to these nodes, of what it has fetched itself."""
+    within = set[int]()
+    for index, node in enumerate(nodes):
+        each = problem.shipment_at.get(node)
+        if each is not None and node == each.delivery and (
+                set(each.pickups).issubset(nodes[:index])):
+            within.add(node)
+    return within
+
+
 def brought_within(problem: Problem, nodes: Sequence[int]) -> set[int]:
     """Return the deliveries of what a drone has fetched before on the same sortie, to these nodes.
 
     None of what is fetched in parts, all of which come aboard the truck.
     """
-    within = set[int]()
-    for index, node in enumerate(nodes):
-        each = problem.shipment_at.get(node)
-        if each is not None and node == each.delivery and not each.more and (
-                each.pickup in nodes[:index]):
-            within.add(node)
-    return within
+    return {node for node in fetched_before(problem, nodes) if not problem.shipment_at[node].more}
 
 
 def flown_out(problem: Problem, node: int) -> tuple[int, ...]:

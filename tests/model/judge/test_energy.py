@@ -6,10 +6,10 @@ import pytest
 
 from model.counsel.explain import explain
 from model.judge.check import check
-from model.judge.energy import leg_energy, power_at, sortie_energy
+from model.judge.energy import leg_energy, power_at, sortie_energy, weights_aboard
 from model.judge.rules import watt_hours
 from model.judge.timing import RouteDecision, SortieDecision, TripDecision, schedule
-from model.problem import MICROJOULES_PER_WH, DroneType, Energy, Problem
+from model.problem import MICROJOULES_PER_WH, DroneType, Energy, Part, Problem, Shipment
 from model.solution import Solution, Trip
 from tests.model.remedies import applied
 
@@ -138,3 +138,12 @@ def test_who_is_too_far_for_the_battery_is_told_how_much_more_it_takes(
     assert (reason.code, reason.remedy) == ("RANGE", "fits with a battery of 17.5 Wh more")
     changed = explain(applied(problem, reason, 4), Solution((), (1, 2, 3, 4)), 4)
     assert changed[0].code == "SEARCH"
+
+
+def test_what_a_vehicle_fetches_in_parts_itself_weighs_from_there_on(three) -> None:
+    """Though a truck's drone would have it from the truck."""
+    nobody = [replace(each, demand=(0,)) for each in three.customers]
+    parts = Shipment("parts", 1, 3, (1,), more=(Part(2, (4,)),))
+    problem = replace(three, customers=tuple(nobody), shipments=(parts,))
+    assert weights_aboard(problem, BATTERY, (1, 2, 3)) == [0, 1, 5, 0]
+    assert weights_aboard(problem, BATTERY, (3,)) == [5, 0]
