@@ -80,13 +80,17 @@ def comes_by_trips(problem: Problem) -> bool:
     """Tell whether a search begins with the trips of vehicles that fly, as if each had its own.
 
     It does where they may make several, and where no truck has drones. Where it costs how much
-    work a vehicle has, that has to be known.
+    work a vehicle has, that has to be known; and how long who flies may work, where others drive
+    to whomever there is no time for.
     """
     kinds = problem.vehicle_types
+    is_driven = any(not kind.flies for kind in kinds)
     return (problem.num_customers >= BY_TRIP_FROM and not problem.keeps_together
             and not problem.lags_across and not problem.fairness.is_stated
             and any(kind.flies and kind.max_trips > 1 for kind in kinds)
-            and all(kind.drones is None for kind in kinds))
+            and all(kind.drones is None for kind in kinds)
+            and not (is_driven and any(kind.flies and kind.max_working_duration is not None
+                                       for kind in kinds)))
 
 
 def with_single_trips(problem: Problem) -> Problem:

@@ -242,13 +242,16 @@ def test_trips_have_times_where_the_clock_ends_as_they_are_packed(
     assert check(problem, found.solution).violations == ()
 
 
-def test_no_trips_are_found_first_for_drones_on_trucks_few_customers_or_fair_work() -> None:
+def test_no_trips_are_found_first_for_drones_on_trucks_few_customers_fair_or_limited_work() -> None:
     problem = fleet_of_both()
     truck, drone = problem.vehicle_types
     carrier = replace(truck, drones=DroneType(1, (1000,), 0))
     assert not comes_by_trips(replace(problem, vehicle_types=(carrier, drone)))
     assert not comes_by_trips(replace(problem, vehicle_types=(truck,)))
     assert not comes_by_trips(replace(problem, fairness=Fairness(makespan_cost_per_hour=1.0)))
+    short = replace(drone, max_working_duration=120 * MINUTE)
+    assert not comes_by_trips(replace(problem, vehicle_types=(truck, short)))
+    assert comes_by_trips(replace(problem, vehicle_types=(short,)))
     assert not comes_by_trips(street(order("a")))
 
 
