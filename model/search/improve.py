@@ -335,7 +335,7 @@ def _search(team: _Team, data: ProblemData, crew: Crew,
         for number, end in enumerate(ends[1:].tolist()):
             span = Cooling(team.limits.share(first.turns), end, 1.0)
             if not team.over(span):
-                starts.begin(starting.anew and number > 0)
+                starts.begin(starting.anew and number > 0, fewer=number % 2 == 1)
                 team.search(starts, span)
         go_on_from_best(data, whole)
         rest = Cooling(team.limits.share(first.turns), 1.0, REHEAT)

@@ -55,19 +55,34 @@ class Starts:
         self._linked = linked
         self._first, = make_rooms(data, whole, seeds[:1])
         self._rooms: list[Searcher] = []
+        self._now = data
         take_all(data, whole, self._first)
 
-    def begin(self, anew: bool) -> None:
-        """Let all searches go on from the first routes, or plan `anew`, each by itself."""
+    def begin(self, anew: bool, fewer: bool = False) -> None:
+        """Let all searches go on from the first routes, or plan `anew`, each by itself.
+
+        Then by one truck less than the best plan so far has, if `fewer`.
+        """
         self._rooms = self._rooms or make_rooms(self._data, self._whole, self._seeds)
+        self._now = self._with_fewer() if anew and fewer else self._data
         for room in self._rooms:
             take_all(self._data, self._first, room)
             if anew:
-                begin_again(self._data, room, self._linked)
+                begin_again(self._now, room, self._linked)
+
+    def _with_fewer(self) -> ProblemData:
+        """Return the problem with a truck less than the best plan has, if all trucks are alike."""
+        driven = np.flatnonzero(~self._data.type["flies"][:self._data.num_types].astype(bool))
+        used = self._whole.best_used[driven]
+        if len(driven) != 1 or used[0] < 2:
+            return self._data
+        types = self._data.type.copy()
+        types["count"][driven] = used - 1
+        return self._data._replace(type=types)
 
     def spread(self) -> list[tuple[ProblemData, Searcher]]:
         """Return the searches as they are, and their problem."""
-        return [(self._data, room) for room in self._rooms]
+        return [(self._now, room) for room in self._rooms]
 
     def gather(self) -> None:
         """Keep the best of all in the whole."""

@@ -42,9 +42,9 @@ def begins(monkeypatch: pytest.MonkeyPatch) -> list[bool]:
     calls: list[bool] = []
     begin = Starts.begin
 
-    def record(starts: Starts, anew: bool) -> None:
+    def record(starts: Starts, anew: bool, fewer: bool = False) -> None:
         calls.append(anew)
-        begin(starts, anew)
+        begin(starts, anew, fewer)
 
     monkeypatch.setattr(Starts, "begin", record)
     return calls
@@ -75,6 +75,24 @@ def test_every_search_begins_with_a_legal_plan_of_its_own(variant: str) -> None:
             if not anew:
                 assert room.value.best == pytest.approx(whole.value.cost)
     assert read_plan(data, whole) == before
+
+
+def test_some_begin_by_a_truck_less_where_all_are_alike() -> None:
+    data, whole = begun(generate(np.random.default_rng(6), 30, "cvrp"))
+    starts = Starts(data, whole, np.random.SeedSequence(1).spawn(2))
+    starts.begin(True, fewer=True)
+    for now, room in starts.spread():
+        assert now.type["count"][0] == whole.best_used.sum() - 1
+        assert room.used.sum() < whole.best_used.sum()
+    starts.begin(True)
+    assert all(now is data for now, _ in starts.spread())
+
+
+def test_none_begins_by_a_truck_less_where_types_differ() -> None:
+    data, whole = begun(generate(np.random.default_rng(6), 30, "hetero"))
+    starts = Starts(data, whole, np.random.SeedSequence(1).spawn(2))
+    starts.begin(True, fewer=True)
+    assert all(now is data for now, _ in starts.spread())
 
 
 @pytest.mark.parametrize("variant", TRUCKS)
