@@ -63,9 +63,8 @@ void BestOperations::find_ways() {
 
 // Return a way that goes on from a place, whose service counts when the truck leaves it.
 PartScratch::Via BestOperations::beyond(const PartScratch::Via& by, Spot place, Spot to) const {
-    const VehicleType& type = data_.type[part_.type];
-    const Leg on = leg(legs_of(data_.leg, type.travel), node(place), node(to));
-    const Int service = data_.place.by_truck(type)[node(place)].service_duration();
+    const Leg on = leg(by_.drive, node(place), node(to));
+    const Int service = by_.by_truck[node(place)].service_duration();
     return {by.duration + service + on.duration, by.distance + on.distance, place};
 }
 
@@ -122,9 +121,7 @@ void BestOperations::find_across() {
 PartScratch::Across BestOperations::best_across(Spot from, unsigned set, Spot to) const {
     PartScratch::Across best{infinite_cost, no_spot};
     const unsigned others = set & ~bit_of(to);
-    const VehicleType& type = data_.type[part_.type];
-    const Int stay =
-        stay_beside_launch(type, data_.place.by_truck(type)[node(from)].service_duration());
+    const Int stay = stay_beside_launch(*by_.type, by_.by_truck[node(from)].service_duration());
     if (is_customer(to) && (!(set & bit(to)) || !drives(to))) return best;
     for (Spot flown = 1; flown <= customers_; ++flown) {
         const unsigned inner = others & ~bit(flown);

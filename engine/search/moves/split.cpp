@@ -183,7 +183,7 @@ private:
     // Let operations begin at a place, up to where all costs so much, and fly there.
     void begin_at(Int place, double cost) {
         const Line& here = line_[place];
-        const Int stays = stay_beside_launch(type_, places_[here.node].service_duration());
+        const Int stays = stay_beside_launch(type_, by_.by_truck[here.node].service_duration());
         scratch_.cost[place] = cost;
         scratch_.loops[place] = 0.0;
         scratch_.looped_until[place] = place + 1;
@@ -212,7 +212,7 @@ private:
             if (!(before <= best.cost)) continue;
             const Int here = line_[i].node;
             const double cost = driven_on(rate_, before, leg(by_.drive, here, line_[j].node),
-                                          places_[here].service_duration());
+                                          by_.by_truck[here].service_duration());
             if (cost <= best.cost) best = {cost, i, no_flight};
         }
     }
@@ -250,7 +250,7 @@ private:
     void fly_over(Int flown, Int first, Int j, EndedOperation& best) {
         const Line &spared = line_[flown], &to = line_[j];
         const Leg home = leg_to(legs_from(data_.leg, type_.home_travel, spared.node), to.node);
-        const Int back = places_by_air_[spared.node].service_duration() + home.duration;
+        const Int back = by_.by_air[spared.node].service_duration() + home.duration;
         if (!can_last(type_, back)) return;
         const auto drive_until = double(to.drive - spared.spared_drive);
         const auto distance_until = double(to.distance - spared.spared_distance);
@@ -312,8 +312,6 @@ private:
     const Rate rate_ = data_.rate[k_];
     const View<const bool, 1> drives_ = data_.can[k_][0];
     const View<const bool, 1> flies_ = data_.can[k_][1];
-    const NodeTable places_ = data_.place.by_truck(type_);
-    const NodeTable places_by_air_ = data_.place.by_air(type_);
 };
 
 }  // namespace
