@@ -90,7 +90,7 @@ class Screen:
         none that come up after `until`, on `time.perf_counter`.
         """
         found: defaultdict[tuple[Vehicle, Means], list[Guess]] = defaultdict(list)
-        routes = self._routes()
+        routes = routes_of(self._solution)
         trips = {vehicle: len(route.trips) for vehicle, route in routes.items()}
         behind = {vehicle: self._past.room_after(self._problem, route, self._node)
                   for vehicle, route in routes.items()}
@@ -124,13 +124,6 @@ class Screen:
                     first_stop = max(first_stop, len(known[number].stops))
                     first_flight = len(known[number].sorties)
                 yield self._on_trip(vehicle, number, trip, first_stop, first_flight)
-
-    def _routes(self) -> dict[Vehicle, Route]:
-        """Return the route of each vehicle; the first, where a plan wrongly states several."""
-        routes: dict[Vehicle, Route] = {}
-        for route in self._solution.routes:
-            routes.setdefault(Vehicle(route.vehicle_type, route.vehicle), route)
-        return routes
 
     def _own_trips(self, trips: dict[Vehicle, int]) -> Iterator[tuple[Vehicle, int]]:
         """Yield vehicles that may make a trip for the customer alone, and its index."""
@@ -270,6 +263,14 @@ class Screen:
                                 price_of(drones, detour, added), added,
                                 Place(vehicle, number, "drone", sortie.launch_stop,
                                       sortie.recovery_stop, sortie.drone, index, visit))
+
+
+def routes_of(solution: Solution) -> dict[Vehicle, Route]:
+    """Return the route of each vehicle; the first, where a plan wrongly states several."""
+    routes: dict[Vehicle, Route] = {}
+    for route in solution.routes:
+        routes.setdefault(Vehicle(route.vehicle_type, route.vehicle), route)
+    return routes
 
 
 def best_first(guesses: Mapping[tuple[Vehicle, Means], list[Guess]]) -> list[Guess]:

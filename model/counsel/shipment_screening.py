@@ -13,13 +13,13 @@ from math import prod
 
 from model.counsel.screening import (
     ANYHOW, BY_TRUCK, SPANS, Guess, Screen, Wanted, first_drones, free_drone, of_any, price_of,
-    share_over,
+    routes_of, share_over,
 )
 from model.judge.past import Past, Vehicle
 from model.judge.places import Means, Place
 from model.problem import Problem, Shipment, VehicleType
 from model.problem.travel import Matrix
-from model.solution import Route, Solution, Stop, Trip
+from model.solution import Solution, Stop, Trip
 
 _TripOf = tuple[Vehicle, int, bool]
 """Whose trip, its index, and whether it is one more that it comes before."""
@@ -52,9 +52,7 @@ class ShipmentScreen:
         self._wanted = wanted
         self._solution = solution
         self._may_be_flown = problem.customer_at(shipment.delivery).served_by != "truck"
-        self._routes: dict[Vehicle, Route] = {}
-        for route in solution.routes:
-            self._routes.setdefault(Vehicle(route.vehicle_type, route.vehicle), route)
+        self._routes = routes_of(solution)
 
     def guesses(self, until: float = math.inf) -> dict[tuple[Vehicle, Means], list[Guess]]:
         """Return the places of each vehicle, by truck and with drones, the best ones first.

@@ -84,13 +84,13 @@ def comes_by_trips(problem: Problem) -> bool:
     to whomever there is no time for.
     """
     kinds = problem.vehicle_types
-    is_driven = any(not kind.flies for kind in kinds)
+    flown = [kind for kind in kinds if kind.flies]
+    is_limited = any(kind.max_working_duration is not None for kind in flown)
     return (problem.num_customers >= BY_TRIP_FROM and not problem.keeps_together
             and not problem.lags_across and not problem.fairness.is_stated
-            and any(kind.flies and kind.max_trips > 1 for kind in kinds)
+            and any(kind.max_trips > 1 for kind in flown)
             and all(kind.drones is None for kind in kinds)
-            and not (is_driven and any(kind.flies and kind.max_working_duration is not None
-                                       for kind in kinds)))
+            and not (is_limited and len(flown) < len(kinds)))
 
 
 def with_single_trips(problem: Problem) -> Problem:
