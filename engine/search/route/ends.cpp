@@ -23,6 +23,7 @@ Reload nearest_reload(const ProblemData& data, Int k, Int before, Int behind) {
     };
     const Int depot = data.type[k].depot;
     Reload best{distance_by(depot), depot};
+    if (!is_apart(data, k)) return best;
     for (Int node = 0; node < data.num_depots; ++node) {
         if (!data.reload(k, node)) continue;
         const Int distance = distance_by(node);
