@@ -30,12 +30,20 @@ COLOURS = """() => {
   const seen = new Set();
   for (const canvas of document.querySelectorAll('.leaflet-tile-pane canvas')) {
     const { data } = canvas.getContext('2d').getImageData(0, 0, canvas.width, canvas.height);
-    for (let at = 0; at < data.length; at += 4) {
-      if (data[at + 3] === 255) seen.add((data[at] << 16) + (data[at + 1] << 8) + data[at + 2]);
+    let last = 0;
+    for (const pixel of new Uint32Array(data.buffer)) {
+      if (pixel !== last && pixel >>> 24 === 255) {
+        seen.add(((pixel & 255) << 16) + (pixel & 0xff00) + ((pixel >> 16) & 255));
+      }
+      last = pixel;
     }
   }
   return [...seen];
 }"""
+"""Returns the opaque colours of the streets; most pixels are as the one before."""
+
+POLLING = 250
+"""Milliseconds between two looks at all pixels, which take a good part of that."""
 
 LEGS = """async () => {
   const load = (path) => loaded(`${path}.js`);
@@ -135,7 +143,7 @@ def on_screen(page: Page) -> Callable[[list[float]], tuple[float, float]]:
 
 def streets_with(page: Page, water: int) -> list[int]:
     """Wait until the streets are drawn with water of a colour; return all colours."""
-    page.wait_for_function(f"() => ({COLOURS})().includes({water})")
+    page.wait_for_function(f"() => ({COLOURS})().includes({water})", polling=POLLING)
     return list(page.evaluate(COLOURS))
 
 
