@@ -347,7 +347,7 @@ def test_tiny_plans_go_on_from_launch_sites(
 
 
 @pytest.mark.parametrize("variant", VARIANTS)
-@pytest.mark.parametrize("seed", range(4))
+@pytest.mark.parametrize("seed", seeds(4))
 def test_plans_of_all_classes_go_on(planner: Planner, variant: str, seed: int) -> None:
     rng = np.random.default_rng((seed, 6))
     replan_and_check(planner, generate(rng, 20, variant), rng)

@@ -18,9 +18,10 @@ from model.search.route.state import Searcher
 from model.search.problem_data import are_timed, can_be_linked, make_data
 from model.solution import Solution
 from tests.model.search.found import copied, read_plan, served_by
+from tests.seeds import often
 from training.instances import generate
 
-BATCHES, TURNS = 60, 20
+BATCHES, TURNS = often(60), 20
 
 
 def loads_alone(size: int) -> Problem:
