@@ -3,12 +3,15 @@
 from collections.abc import Sequence
 
 from model.problem import (
-    FULL_SPEED, MM_PER_KM, MS_PER_HOUR, UNLIMITED, USUAL_DECIMALS, Customer, Fairness, Relation,
+    FULL_SPEED, MAX_QUANTITY, MM_PER_KM, MS_PER_HOUR, USUAL_DECIMALS, Customer, Fairness, Relation,
     Travel, VehicleType,
 )
 
 DETOURS_PER_CUSTOMER = 10
 """A customer left out costs as much as this many vehicles sent out for it alone."""
+
+NO_END = MAX_QUANTITY // 2 - 1
+"""Milliseconds from which on a time is none: vehicles that lack a leg have to be back by then."""
 
 
 def default_unassigned_cost(customers: Sequence[Customer], vehicle_types: Sequence[VehicleType],
@@ -26,7 +29,7 @@ def default_unassigned_cost(customers: Sequence[Customer], vehicle_types: Sequen
               for time in (*customer.openings, customer.latest, customer.release_time)]
     stated += [kind.latest for kind in vehicle_types]
     waits = sum([each.min_lag * len(each.nodes) for each in relations])
-    horizon = (max([time for time in stated if time < UNLIMITED], default=0) + waits) / MS_PER_HOUR
+    horizon = (max([time for time in stated if time < NO_END], default=0) + waits) / MS_PER_HOUR
     served = [customer.service_duration for customer in customers]
     for kind in vehicle_types:
         served += kind.service_durations.values()
@@ -108,5 +111,5 @@ def _vehicle_cost(kind: VehicleType, longest: Sequence[tuple[float, float]],
 
 def _longest_leg(travel: Travel) -> tuple[float, float]:
     """Return the largest distance in kilometres and the largest duration in hours."""
-    milliseconds, millimetres = travel.longest()
+    milliseconds, millimetres = travel.longest(below=MAX_QUANTITY)
     return millimetres / MM_PER_KM, milliseconds / MS_PER_HOUR

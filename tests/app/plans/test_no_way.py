@@ -46,3 +46,20 @@ def test_legs_that_are_not_there_are_never_driven(client: httpx.Client, smallest
     (left,) = plan["unassigned"]
     assert [(reason["code"], "no leg to it" in reason["message"])
             for reason in left["reasons"]] == [("UNREACHABLE", True)]
+
+
+def test_a_leg_that_is_not_there_makes_leaving_out_no_dearer(client: httpx.Client,
+                                                            smallest: Request) -> None:
+    def planned(table: Any) -> Any:
+        reply = client.post("/plan", json=_with_matrix(smallest, table)).json()
+        assert len(reply["unassigned"]) == 1
+        return reply["cost"]
+
+    smallest["fleet"][0] |= {"capacity": [2], "costs": {"per_km": 1}}
+    smallest["customers"][0]["demand"] = [2]
+    smallest["customers"][1]["demand"] = [2]
+    smallest["options"] = {"time_limit": 0.1}
+    smallest["fairness"] = {"makespan_cost_per_hour": 60}
+    whole = [[0, 60, 90], [60, 0, 70], [90, 70, 0]]
+    lacking = [[0, 60, 90], [60, 0, None], [90, 70, 0]]
+    assert planned(lacking) == planned(whole)

@@ -12,8 +12,8 @@ from model.engine.instance import pack
 from model.judge.check import check
 from model.judge.timing import RouteDecision, TripDecision, schedule
 from model.problem import (
-    MM_PER_KM, MS_PER_HOUR, Balance, Customer, Depot, Fairness, Measure, Problem, Travel,
-    VehicleType,
+    MAX_QUANTITY, MM_PER_KM, MS_PER_HOUR, Balance, Customer, Depot, Fairness, Measure,
+    Problem, Travel, VehicleType,
 )
 from model.search.beginning.translate import make_searcher
 from model.search.improve import SearchConfig, improve
@@ -114,6 +114,20 @@ def test_search_finds_the_cheapest_plan_as_a_whole(seed: int, fairness: Fairness
     found = check(problem, searched(problem)).cost
     assert found.total == pytest.approx(cheapest(problem), rel=1e-9)
     assert found.makespan > 0 or fairness.makespan_cost_per_hour == found.too_few_vehicles == 0
+
+
+def test_a_missing_leg_makes_no_other_dear_where_the_last_end_costs() -> None:
+    problem = replace(street_problem(1, ONLY_END), unassigned_cost=100.0)
+    duration, distance = problem.travel[0].arrays()
+    duration[1, 2] = MAX_QUANTITY
+    in_time = [replace(kind, latest=MAX_QUANTITY // 2) for kind in problem.vehicle_types]
+    lacking = replace(problem, travel=(Travel(duration, distance),), vehicle_types=tuple(in_time))
+    plan = improve(lacking, pack([lacking]), Solution((), tuple(range(1, 6))),
+                   SearchConfig(turns=600)).solution
+    found = check(lacking, plan)
+    assert found.violations == ()
+    assert plan.unassigned == ()
+    assert found.cost.total == pytest.approx(cheapest(lacking), rel=1e-9)
 
 
 @pytest.mark.parametrize("draw", [draw_tiny, with_pickups, with_reloads, with_duty, with_shipments])
