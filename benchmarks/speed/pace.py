@@ -1,4 +1,4 @@
-"""How many turns a second does the search make? `python -m benchmarks.speed.pace`.
+"""How many turns a second does the search make? `python -m benchmarks.speed.pace compare`.
 
 Some kinds of problems are searched for a number of turns, divided by the processor time they take,
 which other work on the machine hardly changes; beginning isn't counted. With `--beside` another
