@@ -88,16 +88,18 @@ class Travel:
             return self.duration.reaches_all
         return bool(self.duration.max(initial=0) < UNREACHABLE)
 
-    def longest(self, below: int = UNREACHABLE) -> tuple[int, int]:
-        """Return a duration and a distance that no leg exceeds that can be travelled, of those that
-        take less than `below` where they are held.
-        """
+    def lacks_ways(self) -> bool:
+        """Tell whether there are legs that aren't there, which last `MAX_QUANTITY`."""
+        return (isinstance(self.duration, np.ndarray)
+                and bool((self.duration == MAX_QUANTITY).any()))
+
+    def longest(self) -> tuple[int, int]:
+        """Return a duration and a distance that no leg exceeds that can be travelled."""
         if self.straight is not None:
             return self.straight.longest_duration(), self.straight.longest_distance()
         narrow = self.narrow()
         duration, distance = narrow or self.arrays()
-        is_any = below == UNREACHABLE and self.reaches_all()
-        there_is = True if is_any else duration < (min(NO_LEG, below) if narrow else below)
+        there_is = duration < (NO_LEG if narrow else MAX_QUANTITY)
         return (int(np.max(duration, where=there_is, initial=0)),
                 int(np.max(distance, where=there_is, initial=0)))
 

@@ -5,7 +5,7 @@ that end alike are told apart by few turns, and those with long ways don't get s
 """
 
 from model.engine.instance import Instance
-from model.problem import MAX_QUANTITY, MM_PER_KM, MS_PER_HOUR, Problem
+from model.problem import MM_PER_KM, MS_PER_HOUR, Problem
 
 WAYS_BY_END = 0.001
 """What ways of all vehicles cost at least, by what as much later a last end does."""
@@ -23,7 +23,7 @@ def with_ways_priced(problem: Problem, instance: Instance) -> Instance:
                            problem.num_customers))
     rate = instance.rate.copy()
     for row, kind in enumerate(problem.vehicle_types):
-        duration, distance = problem.travel[kind.travel].longest(below=MAX_QUANTITY)
+        duration, distance = problem.travel[kind.travel].longest()
         if distance:
             least = per_hour * (duration / MS_PER_HOUR) / (distance / MM_PER_KM)
             rate["distance"][0, row] = max(rate["distance"][0, row], least)

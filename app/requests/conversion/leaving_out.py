@@ -111,5 +111,5 @@ def _vehicle_cost(kind: VehicleType, longest: Sequence[tuple[float, float]],
 
 def _longest_leg(travel: Travel) -> tuple[float, float]:
     """Return the largest distance in kilometres and the largest duration in hours."""
-    milliseconds, millimetres = travel.longest(below=MAX_QUANTITY)
+    milliseconds, millimetres = travel.longest()
     return millimetres / MM_PER_KM, milliseconds / MS_PER_HOUR

@@ -154,7 +154,7 @@ class Travels:
 
     def lack_ways(self, used: Collection[int]) -> bool:
         """Tell whether any of some matrices has legs that aren't there."""
-        return any(self._travels[index].longest()[0] >= MAX_QUANTITY for index in used)
+        return any(self._travels[index].lacks_ways() for index in used)
 
     def drive(self, vehicle_type: VehicleTypeInput) -> tuple[int, SpeedProfile | None]:
         """Return the index of the trucks' matrices, and their speeds by time of day."""

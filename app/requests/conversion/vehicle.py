@@ -5,6 +5,7 @@ from dataclasses import replace
 
 from app.requests.conversion.amounts import counted
 from app.requests.conversion.energy import to_energy
+from app.requests.conversion.leaving_out import NO_END
 from app.requests.conversion.places import places_of_type
 from app.requests.conversion.travels import Travels
 from app.requests.conversion.units import by_name, thousandths
@@ -57,7 +58,7 @@ def _in_time(kind: VehicleType, travels: Travels) -> VehicleType:
         return kind
     most, overtime = MAX_QUANTITY - 1, kind.overtime
     if overtime is not None:
-        most //= 2
+        most = NO_END
         overtime = replace(overtime, max_duration=min(overtime.max_duration, most))
     latest = max(kind.earliest, min(kind.latest, most))
     return replace(kind, latest=latest, overtime=overtime)

@@ -115,7 +115,7 @@ def stated_in(problem: Problem) -> set[str]:
         ("vehicle_costs", problem.vehicle_costs is not None),
         ("fairness", problem.fairness.is_stated),
         ("depot_hours", any(depot.earliest > 0 for depot in problem.depots)),
-        ("missing_legs", problem.travel[0].longest()[0] >= MAX_QUANTITY),
+        ("missing_legs", problem.travel[0].lacks_ways()),
         ("several_windows", any(customer.gaps for customer in problem.customers)),
         ("overtime", any(kind.overtime for kind in kinds)),
         ("goods", problem.incompatible_goods), ("drones", any(kind.drones for kind in kinds)),
