@@ -38,13 +38,15 @@ void RouteTeller::visit(const ToldStop& visit) {
 }
 
 void RouteTeller::leg(Int stop, const ToldLeg& leg) {
-    RestedLeg rested(speeds_, begin_, driver_, leg.stood, leg.leave, leg.duration);
+    const PausedLeg whole{speeds_,      leg.rests, begin_,   leg.leave,
+                          leg.duration, leg.stood, leg.setup};
+    RestedLeg rested = whole.by(driver_);
     for (Int index = 0; index < leg.rests.count(); ++index) {
         const Int start = rested.take(leg.rests.number(index), leg.rests.place(index));
         rest(stop, leg.rests, index, {rested.stood(), start, rested.time()});
     }
     rested.arrive();
-    driver_ = rested.driver();
+    driver_ = whole.having_arrived(rested);
 }
 
 void RouteTeller::rest(Int stop, Rests rests, Int index, const RestTimes& times) {

@@ -36,6 +36,7 @@ struct ToldLeg {
     Rests rests;
     Int leave, duration;  // at full speed, without setup and what is rested meanwhile
     Int stood;            // how long the driver was at other work before
+    Int setup;            // at its end
 };
 
 // A stop of a trip, which may be its first or last, with what who flies by itself does there.

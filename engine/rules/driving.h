@@ -1,8 +1,9 @@
 // Rests of those who drive: what is counted of a driver, and how that goes on.
 //
 // Driving is time on legs alone. All else since the last rest is work, waiting and short breaks
-// too, but not a part of a rest. Where other work interrupts driving, service and reloading count
-// that last as long as a rest, whenever they are: they stay as long where a route begins later.
+// too, but not a part of a rest. Where other work interrupts driving, setup, service and reloading
+// count that last as long as a rest, all that is done at one place together: they stay as long
+// where a route begins later.
 // Whoever waits may rest meanwhile. A rest lies between two stops, as breaks do: where the truck
 // leaves, where it arrives, or on its way, then as late as the rules allow.
 #pragma once
@@ -17,6 +18,7 @@ struct Driver {
     Int driven;
     Int since;        // when it began to work
     Int half_rested;  // whether it has taken the first part of a rest
+    Int stood;        // at other work since it was last at the wheel, however long it waited
 };
 
 // Breaks and rests on one route, at most, where rules ask for rests.
@@ -71,7 +73,7 @@ inline Int duration_of(const VehicleType& type, Rests rests) {
 // A driver whose route begins at `begin`.
 inline Driver driver_from(const VehicleType& type, Int begin) {
     return {type.driven_before, counted_begin(type, begin) - type.worked_before,
-            type.half_rested_before};
+            type.half_rested_before, 0};
 }
 
 // How much longer a driver may be at the wheel, negative if it should have rested before.
@@ -109,7 +111,7 @@ inline void pause(const VehicleType& type, Driver& driver, Int length, Int end) 
     const Int first = rest_duration(type, first_part), second = rest_duration(type, second_part);
     if (length >= rest_duration(type, whole_rest) ||
         (driver.half_rested == 1 && length >= second)) {
-        driver = {0, end, 0};
+        driver = {0, end, 0, 0};
         return;
     }
     if ((first > 0 || second > 0) && length >= first) {
@@ -118,9 +120,12 @@ inline void pause(const VehicleType& type, Driver& driver, Int length, Int end) 
     }
 }
 
-// A driver who has been at other work for so long.
-inline Driver having_stood(const VehicleType& type, Driver driver, Int duration) {
-    if (type.work_interrupts == 1 && duration >= rest_duration(type, whole_rest)) driver.driven = 0;
+// A driver who has been at other work for so long more, and has so much of a leg before him.
+inline Driver having_stood(const VehicleType& type, Driver driver, Int more, Int driving) {
+    driver.stood += more;
+    if (type.work_interrupts == 0 || driving == 0) return driver;
+    if (driver.stood >= rest_duration(type, whole_rest)) driver.driven = 0;
+    driver.stood = 0;
     return driver;
 }
 
@@ -163,7 +168,7 @@ public:
     RestedLeg(const Speeds& speeds, Int begin, Driver driver, Int stood, Int leave, Int duration)
         : type_(&speeds.type),
           begin_(begin),
-          driver_(having_stood(speeds.type, driver, stood)),
+          driver_(having_stood(speeds.type, driver, stood, duration)),
           time_(leave),
           left_(speeds, duration) {}
 
@@ -238,32 +243,39 @@ inline bool drive_with(RestedLeg& leg, Rests rests) {
 }
 
 // A leg as it is begun at `leave`, with breaks and rests, on a route that begins at `begin`: how
-// long it is at full speed, without setup, and how long its driver was at other work before.
+// long it is at full speed, how long its driver was at other work before, and the setup at its end.
 struct PausedLeg {
     Speeds speeds;
     Rests rests;
-    Int begin, leave, duration, stood;
+    Int begin, leave, duration, stood, setup;
 
     // The leg for a driver, of which nothing is driven yet; it may not outlast this.
     RestedLeg by(const Driver& driver) const {
         return {speeds, begin, driver, stood, leave, duration};
     }
 
-    // When it ends; nothing if a break can't be taken. In place: what is counted of its driver,
-    // where that is followed.
+    // When its setup ends; nothing if a break can't be taken. In place: what is counted of its
+    // driver, where that is followed.
     std::optional<Int> end(Driver& driver) const {
         RestedLeg leg = by(driver);
         if (!drive_with(leg, rests)) return std::nullopt;
-        driver = leg.driver();
-        return leg.time();
+        driver = having_arrived(leg);
+        return leg.time() + setup;
     }
 
     // For how long it is driven. In place, as `end`.
     Int driven(Driver& driver) const {
         RestedLeg leg = by(driver);
         drive_with(leg, rests);
-        driver = leg.driver();
+        driver = having_arrived(leg);
         return leg.driven();
+    }
+
+    // Its driver, once it is driven and all is set up.
+    Driver having_arrived(const RestedLeg& driven) const {
+        Driver driver = driven.driver();
+        driver.stood += setup;
+        return driver;
     }
 };
 

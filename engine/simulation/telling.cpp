@@ -34,9 +34,9 @@ void tell_trip(const Setting& setting, const VehicleLog& log, Int first, Int beh
         }
     }
     for (Int p = first; p < behind - 1; ++p) {
-        const Int here = stops[p].node;
-        told.leg(p - first, {Rests(stops[p].rests), stops[p].leave,
-                             travel_of(setting, here, stops[p + 1].node), stood_at(setting, here)});
+        const Int here = stops[p].node, next = stops[p + 1].node;
+        told.leg(p - first, {Rests(stops[p].rests), stops[p].leave, travel_of(setting, here, next),
+                             stood_at(setting, here), setup_after(setting.setup, here, next)});
     }
 }
 

@@ -533,7 +533,7 @@ std::optional<Driver> driver_of(const Setting& setting, const VehicleLog& log, I
             const PausedLeg begun = paused_leg(setting, leg_to(log, index));
             RestedLeg leg = begun.by(driver);
             const bool done = drive_with(leg, begun.rests);
-            driver = leg.driver();
+            driver = begun.having_arrived(leg);
             if (!done || may_drive(setting.type, driver, leg.time()) < 0) return std::nullopt;
             driven += leg.driven();
         }

@@ -73,8 +73,13 @@ struct BegunLeg {
 
 inline PausedLeg paused_leg(const Setting& setting, const BegunLeg& begun) {
     const auto& [rests, begin, origin, to, leave] = begun;
-    return {speeds_of(setting),       rests, begin, leave, travel_of(setting, origin, to),
-            stood_at(setting, origin)};
+    return {speeds_of(setting),
+            rests,
+            begin,
+            leave,
+            travel_of(setting, origin, to),
+            stood_at(setting, origin),
+            setup_after(setting.setup, origin, to)};
 }
 
 // As `travel_arrival`, with breaks; -1 if one can't be taken.
@@ -88,8 +93,7 @@ inline Int come(const Setting& setting, const BegunLeg& begun, Driver& driver) {
             return travel_arrival(setting, origin, to, leave) + duration_of(setting.type, rests);
         }
     }
-    const std::optional<Int> arrival = paused_leg(setting, begun).end(driver);
-    return arrival ? *arrival + setup_after(setting.setup, origin, to) : -1;
+    return paused_leg(setting, begun).end(driver).value_or(-1);
 }
 
 // Whether the truck isn't on legs for too long by the log, if that hangs on when they are driven.

@@ -152,17 +152,16 @@ ToldLeg told_leg(const ProblemData& data, const VehicleType& type, View<const St
                  Int p) {
     const Stop& stop = stops[p];
     const Rests rests(stop.rests);
+    const Int setup = setup_after(data.setup, stop.node, stops[p + 1].node);
     Int duration = stop.gap;
     if (is_steady(type)) {
-        if (stops[p + 1].kind == customer_stop) {
-            duration -= setup_after(data.setup, stop.node, stops[p + 1].node);
-        }
+        duration -= setup;
         if (rests_in_gaps(type)) duration -= duration_of(type, rests);
     }
     Int stood = 0;
     if (stop.kind == customer_stop) stood = data.place.by_truck(type)[stop.node].service_duration();
     if (stop.kind == start_stop && p > 0) stood = type.reload_duration;
-    return {rests, stop.leave, duration, stood};
+    return {rests, stop.leave, duration, stood, setup};
 }
 
 void tell_sortie(const ProblemData& data, const VehicleType& drones, const Sortie& sortie,

@@ -81,15 +81,20 @@ struct Truck {
 
     // Return a leg from a stop to a node, left at `leave`, with the breaks there.
     PausedLeg leg_behind(const Stop& from, Int to, Int leave) const {
-        return {speeds, Rests(from.rests), begin, leave, duration_of_leg(from, to), stood_at(from)};
+        return {speeds,
+                Rests(from.rests),
+                begin,
+                leave,
+                duration_of_leg(from, to),
+                stood_at(from),
+                setup_after(data.setup, from.node, to)};
     }
 
     // Return when it comes from a stop to a node, with the breaks between; `far` if one can't be.
     //
     // In place: what is counted of its driver, where that is followed.
     Int come(const Stop& from, Int to, Int leave, Driver& driver) const {
-        const std::optional<Int> arrival = leg_behind(from, to, leave).end(driver);
-        return arrival ? *arrival + setup_after(data.setup, from.node, to) : far;
+        return leg_behind(from, to, leave).end(driver).value_or(far);
     }
 
     // Return when a stop is left that is reached at an instant, as far as it is served alone.

@@ -96,6 +96,7 @@ void RestRoute::arrive(RestLabel& label, const LegAhead& way, const RestedLeg& l
     label.time = leg.time() + way.setup;
     if (!truck.resting) label.cum += label.time - left;
     if (has_driving_rules(type)) label.driver = leg.driver();
+    label.driver.stood += way.setup;
     if (!limits_work(type)) label.driver.since = 0;
     label.on_leg = 0;
 }

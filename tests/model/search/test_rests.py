@@ -12,13 +12,13 @@ from model.judge.breaks import BreakDecision
 from model.judge.check import check
 from model.judge.timing import RouteDecision, TripDecision, schedule
 from model.problem import (
-    FULL_SPEED, REST, UNLIMITED, DrivingRules, Fairness, Problem, SpeedProfile, VehicleType,
+    FULL_SPEED, REST, UNLIMITED, Customer, DrivingRules, Fairness, Problem, SpeedProfile, Travel,
+    VehicleType,
 )
 from model.search.improve import SearchConfig, improve
 from model.solution import Solution
+from tests.model.judge.test_driving import INTERRUPTED, street
 from tests.model.tiny_breaks import short_day
-
-pytestmark = pytest.mark.slow
 
 MINUTE = 60_000
 
@@ -82,6 +82,31 @@ def costs(problem: Problem, nodes: tuple[int, ...], start: int) -> Iterator[floa
     yield from (each for each in found if each is not None)
 
 
+def break_counts(problem: Problem) -> list[int]:
+    """Return how often each driver rests who serves all of a problem, as legally."""
+    found = improve(problem, pack([problem]), Solution((), problem.left_out(())),
+                    SearchConfig(turns=20)).solution
+    assert found.unassigned == ()
+    assert check(problem, found).violations == ()
+    return [sum(len(trip.breaks) for trip in route.trips) for route in found.routes]
+
+
+@pytest.mark.parametrize(("setup", "rests"), [(5, 0), (4, 1)])
+def test_setup_and_service_interrupt_driving_together(setup: int, rests: int) -> None:
+    served = Customer("a", (1,), service_duration=5 * MINUTE, setup_duration=setup * MINUTE)
+    assert break_counts(replace(street(INTERRUPTED, served), unassigned_cost=1e6)) == [rests]
+
+
+@pytest.mark.parametrize(("apart", "rests"), [(0, 0), (1, 1)])
+def test_service_at_one_place_interrupts_driving_together(apart: int, rests: int) -> None:
+    served = (Customer(name, (1,), service_duration=5 * MINUTE) for name in "ab")
+    legs = np.array([[0, 10, 10], [10, 0, apart], [10, apart, 0]]) * MINUTE
+    problem = replace(street(INTERRUPTED, *served), travel=(Travel(legs, legs),),
+                      unassigned_cost=1e6)
+    assert break_counts(problem) == [rests]
+
+
+@pytest.mark.slow
 @pytest.mark.parametrize(("draw", "seed"), [
     *((drawn, seed) for seed in (1, 4, 9)), *((slow, seed) for seed in (5, 9))])
 def test_one_rest_is_taken_where_it_costs_least(draw: Callable[[np.random.Generator], Problem],
