@@ -1,5 +1,6 @@
 #include "search/insertion/alone.h"
 
+#include "rules/driving.h"
 #include "search/insertion/shipments.h"
 #include "search/route/refresh.h"
 
@@ -109,7 +110,7 @@ private:
     // Whether a drone may fly across an empty trip: who drives may have to stay on the way.
     bool may_cross() const {
         const VehicleType& type = data_.type[k_];
-        return type.begins_at != type.ends_at || data_.evaluation[k_].retimed;
+        return type.begins_at != type.ends_at || data_.evaluation[k_].retimed || limits_work(type);
     }
 
     bool flies() const {

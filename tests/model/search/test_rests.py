@@ -12,8 +12,8 @@ from model.judge.breaks import BreakDecision
 from model.judge.check import check
 from model.judge.timing import RouteDecision, TripDecision, schedule
 from model.problem import (
-    FULL_SPEED, REST, UNLIMITED, Customer, DrivingRules, Fairness, Problem, SpeedProfile, Travel,
-    VehicleType,
+    FULL_SPEED, REST, UNLIMITED, Customer, DrivingRules, DroneType, Fairness, Problem,
+    SpeedProfile, Travel, VehicleType,
 )
 from model.search.improve import SearchConfig, improve
 from model.solution import Solution
@@ -104,6 +104,14 @@ def test_service_at_one_place_interrupts_driving_together(apart: int, rests: int
     problem = replace(street(INTERRUPTED, *served), travel=(Travel(legs, legs),),
                       unassigned_cost=1e6)
     assert break_counts(problem) == [rests]
+
+
+def test_a_driver_rests_while_a_drone_from_the_depot_is_out() -> None:
+    """The flight takes 21 minutes."""
+    problem = street(DrivingRules(UNLIMITED, 5 * MINUTE, max_work=16 * MINUTE),
+                     Customer("a", (1,), service_duration=MINUTE, served_by="drone"))
+    van = replace(problem.vehicle_types[0], drones=DroneType(1, (1,), 0, UNLIMITED))
+    assert break_counts(replace(problem, vehicle_types=(van,), unassigned_cost=1e6)) == [1]
 
 
 @pytest.mark.slow
