@@ -128,6 +128,13 @@ class Trip:
         return [visit.node for visit in self.visits]
 
 
+class Vehicle(NamedTuple):
+    """One vehicle of the fleet."""
+
+    type: int  # index into Problem.vehicle_types
+    number: int  # 0-based, within its type
+
+
 @dataclass(frozen=True, slots=True)
 class Route:
     """All trips of one vehicle, in order."""
@@ -135,6 +142,11 @@ class Route:
     vehicle_type: int  # index into Problem.vehicle_types
     vehicle: int  # 0-based, within its type
     trips: tuple[Trip, ...]
+
+    @property
+    def driven_by(self) -> Vehicle:
+        """The vehicle."""
+        return Vehicle(self.vehicle_type, self.vehicle)
 
     @property
     def visits(self) -> list[Stop | Visit]:
@@ -179,7 +191,7 @@ def renumbered(plan: Solution, node: Callable[[int], int],
             Visit(node(visit.node), visit.arrival, visit.service_start, visit.departure,
                   visit.setup) for visit in old.visits]))
 
-    return Solution(tuple([Route(*vehicle(route.vehicle_type, route.vehicle),
+    return Solution(tuple([Route(*vehicle(*route.driven_by),
                                  tuple(map(trip, route.trips))) for route in plan.routes]),
                     tuple(sorted(map(node, plan.unassigned))))
 

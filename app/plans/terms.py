@@ -7,9 +7,9 @@ from app.requests.conversion.units import optional_thousandths, thousandths
 from app.requests.plan_reading import read_earlier_plan
 from app.schemas.request import OptionsInput, ReplanInput
 from model.judge.changes import ChangePrices
-from model.judge.past import Vehicle
 from model.problem import Problem
 from model.replanning.replan import Terms
+from model.solution import Vehicle
 
 
 def terms_of(replan: ReplanInput, options: OptionsInput, problem: Problem) -> Terms:

@@ -14,13 +14,12 @@ from model.counsel.bench import Bench, Drafted, Trial
 from model.counsel.group_moves import MovedUnit, companions_of, move_all
 from model.counsel.screening import Wanted, best_first, of_any, share_over
 from model.judge.clock import window_of
-from model.judge.past import Vehicle
 from model.judge.places import Means, Place
 from model.judge.retiming import read_route
 from model.judge.timing import RouteDecision
 from model.problem import Customer, Problem
 from model.problem.altered import with_customers
-from model.solution import Stop, Visit
+from model.solution import Stop, Vehicle, Visit
 
 Kind = Literal["place", "by", "window", "vehicle", "unassigned"]
 

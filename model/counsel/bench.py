@@ -17,7 +17,7 @@ from model.judge.ends import with_ends
 from model.judge.lags import Awaited, soonest_across
 from model.judge.launch_sites import without_idle_stops
 from model.judge.metrics import unassigned_cost
-from model.judge.past import EVERYTHING_OPEN, Past, Vehicle
+from model.judge.past import EVERYTHING_OPEN, Past
 from model.judge.places import (
     Found, Means, Place, changed, find_place, find_shipment, route_with, routes_without,
 )
@@ -26,7 +26,7 @@ from model.judge.rules import Violation
 from model.judge.timing import RouteDecision
 from model.problem import Problem, Shipment
 from model.search.driven import driven_by_search
-from model.solution import Solution
+from model.solution import Solution, Vehicle
 
 
 MOST_LEGS = 5_000_000
@@ -130,7 +130,7 @@ class Bench:
         decision = read_route(self.problem, solution.routes[index])
         unassigned = (*solution.unassigned, node)
         ways = [*routes_without(decision, found)]
-        if Vehicle(decision.vehicle_type, decision.vehicle) not in self.setting.past.trips:
+        if decision.driven_by not in self.setting.past.trips:
             ways = [without_idle_stops(self.problem, way) for way in ways]
         if all(not way.trips for way in ways):
             plan = changed(solution, index, None, unassigned)
@@ -205,7 +205,7 @@ class Bench:
         problem = problem or self.problem
         routes = self.left_out.solution.routes
         index = next((index for index, route in enumerate(routes)
-                      if (route.vehicle_type, route.vehicle) == place.vehicle), len(routes))
+                      if route.driven_by == place.vehicle), len(routes))
         kind = problem.vehicle_types[place.vehicle.type]
         decision = (read_route(problem, routes[index]) if index < len(routes)
                     else RouteDecision(place.vehicle.type, place.vehicle.number, ()))

@@ -15,10 +15,10 @@ from model.counsel.bench import Bench, Drafted, Trial
 from model.counsel.priced import is_seen_by_search
 from model.counsel.group_moves import MovedUnit, companions_to, move_all, not_with
 from model.counsel.screening import share_over
-from model.judge.past import Vehicle
 from model.judge.past_rules import PAST_RULES
 from model.judge.places import Place, find_place
 from model.judge.rules import Violation
+from model.solution import Vehicle
 
 SPARE = 8
 """So many more places than asked for are judged with the whole plan if these break rules there."""

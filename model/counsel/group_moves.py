@@ -9,9 +9,9 @@ from typing import NamedTuple
 from model.counsel.bench import Bench, Drafted, Trial
 from model.counsel.screening import best_first
 from model.judge.check import JudgedRoute
-from model.judge.past import Vehicle
 from model.judge.places import find_place
 from model.problem import Shipment
+from model.solution import Vehicle
 
 
 class Effort(NamedTuple):

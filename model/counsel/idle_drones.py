@@ -15,9 +15,8 @@ import numpy as np
 
 from model.counsel.bench import Bench, Setting
 from model.judge.check import JudgedRoute
-from model.judge.past import Vehicle
 from model.problem import UNREACHABLE, Customer, DroneType, Problem, VehicleType
-from model.solution import Route, Solution
+from model.solution import Route, Solution, Vehicle
 
 TRIES = 3
 """Flights tried to a customer, the likeliest ones."""
@@ -57,8 +56,7 @@ def idle_drones(problem: Problem, solution: Solution, setting: Setting | None = 
 def _why(problem: Problem, solution: Solution, index: int, setting: Setting, until: float,
          judged: Mapping[int, JudgedRoute]) -> Idle:
     route = solution.routes[index]
-    vehicle, kind = (Vehicle(route.vehicle_type, route.vehicle),
-                     problem.vehicle_types[route.vehicle_type])
+    vehicle, kind = route.driven_by, problem.vehicle_types[route.vehicle_type]
     hindered = _hindered(problem, kind, vehicle, setting)
     if hindered is not None:
         return Idle(index, *hindered)
@@ -141,7 +139,7 @@ def _tried(problem: Problem, solution: Solution, index: int, nodes: list[int], s
            until: float, judged: Mapping[int, JudgedRoute]) -> Idle:
     """Return what comes of flying to each of some customers."""
     route = solution.routes[index]
-    vehicle = Vehicle(route.vehicle_type, route.vehicle)
+    vehicle = route.driven_by
     best: tuple[float, int] | None = None
     broken: Counter[str] = Counter()
     message, at = "", nodes[0]

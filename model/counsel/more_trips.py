@@ -13,11 +13,11 @@ from model.counsel.remedy import remedy_of
 from model.counsel.screening import first_drones
 from model.judge.ends import with_ends
 from model.judge.hubs import lacks_charger
-from model.judge.past import Past, Vehicle
+from model.judge.past import Past
 from model.judge.places import Place, route_with
 from model.judge.retiming import TimedRoute, read_route, time_route
 from model.problem import Problem, VehicleType
-from model.solution import Route, Solution
+from model.solution import Route, Solution, Vehicle
 
 MAX_TRIED = 8
 """Vehicles tried of a type, those that are back first."""
@@ -44,7 +44,7 @@ def _with_remedy(problem: Problem, solution: Solution, node: int, reason: Reason
     kind = problem.vehicle_types[reason.vehicle_type]
     routes = [(index, route) for index, route in enumerate(solution.routes)
               if route.vehicle_type == reason.vehicle_type
-              and Vehicle(route.vehicle_type, route.vehicle) not in past.unavailable]
+              and route.driven_by not in past.unavailable]
     routes.sort(key=lambda found: found[1].trips[-1].stops[-1].arrival)
     more = replace(problem, vehicle_types=tuple([
         replace(each, max_trips=kind.max_trips + 1) if each is kind else each
@@ -71,7 +71,7 @@ def _would_do(problem: Problem, index: int, route: Route, node: int, past: Past)
     broken = _broken(before)
     most = before.judged.cost.total + problem.cost_of_leaving_out(problem.customer_at(node))
     kind = problem.vehicle_types[route.vehicle_type]
-    for place in _places(kind, Vehicle(route.vehicle_type, route.vehicle), len(route.trips)):
+    for place in _places(kind, route.driven_by, len(route.trips)):
         longer = route_with(decision, place, node, (kind.begins_at, kind.ends_at))
         tried = time_route(problem, replace(longer, trips=with_ends(kind, longer.trips)), path,
                            past)

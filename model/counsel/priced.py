@@ -10,13 +10,12 @@ from dataclasses import dataclass
 from itertools import accumulate, pairwise
 from typing import NamedTuple
 
-from model.judge.past import Vehicle
 from model.judge.places import Means, Place
 from model.problem import Problem
 from model.search.priced_places import (
     BEGIN, END, FLY, FLY_FIRST, HALT, JOIN, RIDE, SERVE, Placement, PlacePrices,
 )
-from model.solution import Route, Solution
+from model.solution import Route, Solution, Vehicle
 
 
 class Offer(NamedTuple):
@@ -94,7 +93,7 @@ class _OnRoute:
     """Places on a route, by where the search puts nodes among its stops."""
 
     def __init__(self, route: Route) -> None:
-        self._vehicle = Vehicle(route.vehicle_type, route.vehicle)
+        self._vehicle = route.driven_by
         self._route = route
         self._begins = [0, *accumulate(len(trip.stops) for trip in route.trips)]
         self._flights = [(number, flight) for number, trip in enumerate(route.trips)

@@ -13,10 +13,10 @@ from typing import NamedTuple
 from model.judge.clock import service_start
 from model.judge.launches import launch_duration
 from model.judge.metrics import allowed_overtime
-from model.judge.past import Past, Vehicle
+from model.judge.past import Past
 from model.judge.places import Means, Place
 from model.problem import MM_PER_KM, MS_PER_HOUR, UNREACHABLE, DroneType, Problem, VehicleType
-from model.solution import Route, Solution, Trip
+from model.solution import Route, Solution, Trip, Vehicle
 
 BY_TRUCK: tuple[Means, ...] = ("truck",)
 ANYHOW: tuple[Means, ...] = ("truck", "drone")
@@ -269,7 +269,7 @@ def routes_of(solution: Solution) -> dict[Vehicle, Route]:
     """Return the route of each vehicle; the first, where a plan wrongly states several."""
     routes: dict[Vehicle, Route] = {}
     for route in solution.routes:
-        routes.setdefault(Vehicle(route.vehicle_type, route.vehicle), route)
+        routes.setdefault(route.driven_by, route)
     return routes
 
 

@@ -15,11 +15,11 @@ from model.counsel.screening import (
     ANYHOW, BY_TRUCK, SPANS, Guess, Screen, Wanted, first_drones, free_drone, of_any, price_of,
     routes_of, share_over,
 )
-from model.judge.past import Past, Vehicle
+from model.judge.past import Past
 from model.judge.places import Means, Place
 from model.problem import Problem, Shipment, VehicleType
 from model.problem.travel import Matrix
-from model.solution import Solution, Stop, Trip
+from model.solution import Solution, Stop, Trip, Vehicle
 
 _TripOf = tuple[Vehicle, int, bool]
 """Whose trip, its index, and whether it is one more that it comes before."""

@@ -16,13 +16,12 @@ from model.counsel.bench import MOST_LEGS, Bench, Drafted, Trial
 from model.counsel.fitting import Fit, find_fits, new_violations
 from model.counsel.priced import Offer, is_seen_by_search, offers_of
 from model.counsel.screening import share_over
-from model.judge.past import Vehicle
 from model.judge.places import Place, find_place
 from model.problem import MM_PER_KM, Customer, Problem
 from model.problem.altered import with_customers
 from model.problem.quantities import UNLIMITED
 from model.search.one_order import OrderSearch
-from model.solution import Route, Solution
+from model.solution import Route, Solution, Vehicle
 
 TRIED = 3
 """Places of a slot that are judged, the cheapest first, if the judge refuses the one before; and
@@ -257,7 +256,7 @@ def _spare(bench: Bench, view: SearchedPlan) -> Iterator[tuple[Place, float]]:
     """Yield the places of vehicles that have no route, one of each type, and their least cost."""
     problem, node = view.problem, view.node
     used = Counter(route.vehicle_type for route in view.solution.routes)
-    taken = {(route.vehicle_type, route.vehicle) for route in view.solution.routes}
+    taken = {route.driven_by for route in view.solution.routes}
     for index in view.kinds:
         kind = problem.vehicle_types[index]
         if used[index] >= kind.count:

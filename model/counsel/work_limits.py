@@ -130,7 +130,7 @@ def fleet_limits(problem: Problem, solution: Solution) -> Iterator[_Whole]:
     fairness = problem.fairness
     if fairness.min_vehicles:
         kinds = {route.vehicle_type for route in solution.routes}
-        used = len({(route.vehicle_type, route.vehicle) for route in solution.routes})
+        used = len({route.driven_by for route in solution.routes})
         used += sum(not each.kinds & kinds for each in fairness.before)
         yield "fairness.min_vehicles", float(used - fairness.min_vehicles), replace(
             problem, fairness=replace(fairness, min_vehicles=fairness.min_vehicles - 1))

@@ -111,7 +111,7 @@ def _out_of_order(positions: list[int]) -> int:
 def _places(problem: Problem, plan: Solution) -> dict[int, OrderPlace]:
     places = {}
     for route in plan.routes:
-        vehicle = route.vehicle_type, route.vehicle
+        vehicle = route.driven_by
         for position, (node, is_flown, arrival) in enumerate(_in_order(route)):
             if node >= problem.num_depots:
                 places[problem.first_place(node)] = OrderPlace(vehicle, position, is_flown, arrival)

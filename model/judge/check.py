@@ -19,7 +19,7 @@ from model.judge.lags import starts_across
 from model.judge.metrics import (
     RouteMetrics, flight_legs, measure_route, measure_trip, unassigned_cost,
 )
-from model.judge.past import EVERYTHING_OPEN, KnownTrip, Past, Vehicle
+from model.judge.past import EVERYTHING_OPEN, KnownTrip, Past
 from model.judge.past_rules import begins_with, past_violations
 from model.judge.relations import plan_orders, plan_relations, route_relations
 from model.judge.rules import TimedTrip, Violation, route_violations, seconds, trip_violations
@@ -95,7 +95,7 @@ def judge_route(problem: Problem, route: Route, path: str,
     if violations:
         return JudgedRoute(violations, RouteMetrics(), Cost(), 0, nodes)
     vehicle_type = problem.vehicle_types[route.vehicle_type]
-    known = past.trips.get(Vehicle(route.vehicle_type, route.vehicle), ())
+    known = past.trips.get(route.driven_by, ())
     trips = [_time(problem, vehicle_type, trip, f"{path}.trips[{number}]",
                    known[number] if number < len(known) else None, past.now,
                    route.trips[:number])
@@ -168,10 +168,10 @@ def _fleet_violations(problem: Problem, solution: Solution) -> Iterator[Violatio
             message = (f"there is no {vehicle_type.vehicle_name(route.vehicle)}: "
                        f"{vehicle_type.id} has {vehicle_type.count}")
             yield Violation("COUNT", message, f"routes[{index}]")
-        if (route.vehicle_type, route.vehicle) in used:
+        if route.driven_by in used:
             message = f"{vehicle_type.vehicle_name(route.vehicle)} has another route"
             yield Violation("COUNT", message, f"routes[{index}]")
-        used.add((route.vehicle_type, route.vehicle))
+        used.add(route.driven_by)
         if len(route.trips) > vehicle_type.max_trips:
             message = f"{len(route.trips)} trips, at most {vehicle_type.max_trips} are allowed"
             yield Violation("MAX_TRIPS", message, f"routes[{index}]")

@@ -3,9 +3,9 @@
 from dataclasses import dataclass
 
 from model.judge.check import Evaluation, JudgedRoute, check, judge_route
-from model.judge.past import EVERYTHING_OPEN, Past, Vehicle
+from model.judge.past import EVERYTHING_OPEN, Past
 from model.problem import Problem
-from model.solution import Route, Solution
+from model.solution import Route, Solution, Vehicle
 
 
 @dataclass(frozen=True)
@@ -37,7 +37,7 @@ class Memory:
         return check(self.problem, plan, self._past, judged)
 
     def _judged(self, route: Route, path: str) -> JudgedRoute:
-        vehicle = Vehicle(route.vehicle_type, route.vehicle)
+        vehicle = route.driven_by
         known = self._known.get(vehicle)
         if known is not None and (known.route is route or known.route == route):
             return known.judged

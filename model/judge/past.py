@@ -15,14 +15,7 @@ from model.judge.changes import EarlierPlan
 from model.judge.clock import service_start
 from model.judge.launches import launch_begins
 from model.problem import UNREACHABLE, Problem, VehicleType
-from model.solution import Route, Solution, Sortie, Stop, TakenBreak, Trip, Visit
-
-
-class Vehicle(NamedTuple):
-    """One vehicle of the fleet."""
-
-    type: int  # index into Problem.vehicle_types
-    number: int  # 0-based, within its type
+from model.solution import Route, Solution, Sortie, Stop, TakenBreak, Trip, Vehicle, Visit
 
 
 class KnownStop(NamedTuple):
@@ -91,7 +84,7 @@ class Past:
 
     def room_after(self, problem: Problem, route: Route, node: int) -> tuple[int, int]:
         """Return the trip, and the stop of it, from which on somebody may come into a route."""
-        had = self.had.get(Vehicle(route.vehicle_type, route.vehicle), frozenset())
+        had = self.had.get(route.driven_by, frozenset())
         first = 0, 1
         if not had or problem.first_place(node) in self.told:
             return first
@@ -142,7 +135,7 @@ def known_trips(problem: Problem, plan: Solution, now: int,
     """
     known = {}
     for route in plan.routes:
-        vehicle = Vehicle(route.vehicle_type, route.vehicle)
+        vehicle = route.driven_by
         trips = tuple(_known_trips(problem, route, now, vehicle in unavailable))
         if trips:
             known[vehicle] = trips
@@ -156,7 +149,7 @@ def parcels_aboard(problem: Problem, plan: Solution, now: int,
     That of a vehicle that breaks down counts too, even if nothing of it is known afterwards.
     """
     routes = tuple(route for route in plan.routes
-                   if (route.vehicle_type, route.vehicle) in vehicles)
+                   if route.driven_by in vehicles)
     begun = known_trips(problem, Solution(routes), now, frozenset())
     return {vehicle: trips[-1].aboard for vehicle, trips in begun.items()}
 

@@ -4,10 +4,10 @@ from collections.abc import Iterator
 from dataclasses import replace
 from typing import NamedTuple
 
-from model.judge.past import KnownSortie, KnownStop, KnownTrip, Past, Vehicle
+from model.judge.past import KnownSortie, KnownStop, KnownTrip, Past
 from model.judge.rules import Violation, seconds
 from model.problem import Problem
-from model.solution import Route, Solution, Sortie, Stop, TakenBreak, Trip
+from model.solution import Route, Solution, Sortie, Stop, TakenBreak, Trip, Vehicle
 
 PAST_RULES = frozenset({"FROZEN", "PAST", "UNAVAILABLE", "ABOARD", "PINNED", "ORDER", "RETURN"})
 """Codes of the rules here."""
@@ -15,7 +15,7 @@ PAST_RULES = frozenset({"FROZEN", "PAST", "UNAVAILABLE", "ABOARD", "PINNED", "OR
 
 def past_violations(problem: Problem, solution: Solution, past: Past) -> Iterator[Violation]:
     """What a plan breaks of the past."""
-    routes = {Vehicle(route.vehicle_type, route.vehicle): route for route in solution.routes}
+    routes = {route.driven_by: route for route in solution.routes}
     for vehicle, trips in past.trips.items():
         if vehicle not in routes:
             message = f"vehicle {vehicle.number + 1} has {len(trips)} trips behind it"
@@ -30,7 +30,7 @@ def past_violations(problem: Problem, solution: Solution, past: Past) -> Iterato
 
 def _route_violations(problem: Problem, route: Route, past: Past, carriers: dict[int, Vehicle],
                       path: str) -> Iterator[Violation]:
-    vehicle = Vehicle(route.vehicle_type, route.vehicle)
+    vehicle = route.driven_by
     known = past.trips.get(vehicle, ())
     if vehicle in past.unavailable and len(route.trips) > len(known):
         yield Violation("UNAVAILABLE", f"does nothing more from {seconds(past.now)} on", path)

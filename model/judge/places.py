@@ -10,10 +10,9 @@ from itertools import islice, product
 from typing import Literal, NamedTuple
 
 from model.judge.breaks import ON_A_LEG, BreakDecision
-from model.judge.past import Vehicle
 from model.judge.timing import Operation, RouteDecision, SortieDecision, TripDecision
 from model.problem import Problem, Shipment
-from model.solution import Route, Solution
+from model.solution import Route, Solution, Vehicle
 
 Means = Literal["truck", "drone"]
 
@@ -64,7 +63,7 @@ def find_place(solution: Solution, node: int) -> Found | None:
     """Return where a plan serves the customer at `node`; None: it leaves him out."""
     for index, route in enumerate(solution.routes):
         for number, trip in enumerate(route.trips):
-            vehicle = Vehicle(route.vehicle_type, route.vehicle)
+            vehicle = route.driven_by
             is_alone = len(trip.visits) == 1
             for at, stop in enumerate(trip.stops[1:-1], 1):
                 if stop.node == node and not stop.is_launch_site:

@@ -5,11 +5,10 @@ from dataclasses import replace
 from itertools import chain
 
 from model.judge.lags import starts_across, starts_of
-from model.judge.past import Vehicle
 from model.judge.rules import TimedTrip, Violation, seconds
 from model.problem import MAX_QUANTITY, SINCE_PLAN_START, UNLIMITED, Lag, Problem, Relation
 from model.problem.altered import with_customers
-from model.solution import Solution
+from model.solution import Solution, Vehicle
 
 
 def route_relations(problem: Problem, trips: Sequence[TimedTrip], path: str) -> Iterator[Violation]:
@@ -110,7 +109,7 @@ def who_decides(problem: Problem, solution: Solution, node: int) -> tuple[str, V
             there = [other for other in relation.nodes if other in route.served]
             if there:
                 names = " and ".join(problem.customer_at(other).id for other in there)
-                return names, Vehicle(route.vehicle_type, route.vehicle)
+                return names, route.driven_by
     return None
 
 

@@ -14,7 +14,7 @@ from model.judge.check import JudgedRoute, judge_route
 from model.judge.clock import closing
 from model.judge.flown_trips import charged_start
 from model.judge.metrics import working_duration
-from model.judge.past import KnownTrip, Past, Vehicle
+from model.judge.past import KnownTrip, Past
 from model.judge.placing import is_exact, with_breaks, with_due_rests
 from model.judge.timing import (
     RouteDecision, TripDecision, latest_release, read_decision, resume_trip, schedule_trip,
@@ -133,7 +133,7 @@ class _Timer:
         self._problem = problem
         self._decision = decision
         self._type: VehicleType = problem.vehicle_types[decision.vehicle_type]
-        self._known = past.trips.get(Vehicle(decision.vehicle_type, decision.vehicle), ())
+        self._known = past.trips.get(decision.driven_by, ())
         self._past = past
 
     def tries(self) -> Iterator[Route]:

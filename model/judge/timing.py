@@ -20,7 +20,7 @@ from model.judge.pairs import hands_over
 from model.judge.past import KnownTrip, resumed_service
 from model.judge.takeoff import charged_launch, held_takeoff, rest_after
 from model.problem import DroneType, Problem, VehicleType
-from model.solution import Charge, Route, Sortie, Stop, Trip, Visit
+from model.solution import Charge, Route, Sortie, Stop, Trip, Vehicle, Visit
 
 
 class Operation(NamedTuple):
@@ -78,6 +78,11 @@ class RouteDecision:
     vehicle_type: int
     vehicle: int
     trips: tuple[TripDecision, ...]
+
+    @property
+    def driven_by(self) -> Vehicle:
+        """The vehicle."""
+        return Vehicle(self.vehicle_type, self.vehicle)
 
 
 @dataclass

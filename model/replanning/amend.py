@@ -7,7 +7,7 @@ from operator import gt
 
 from model.judge.check import judge_route
 from model.judge.ends import with_ends
-from model.judge.past import EVERYTHING_OPEN, Past, Vehicle
+from model.judge.past import EVERYTHING_OPEN, Past
 from model.judge.rules import Violation
 from model.judge.timing import Operation, RouteDecision, SortieDecision, TripDecision
 from model.problem import Problem
@@ -82,7 +82,7 @@ def repaired(problem: Problem, decision: RouteDecision, fixed: Collection[int],
     excused
         What is broken whoever is taken out, so that nobody is for that.
     """
-    step, known = 1, len(past.trips.get(Vehicle(decision.vehicle_type, decision.vehicle), ()))
+    step, known = 1, len(past.trips.get(decision.driven_by, ()))
     for round_number in range(len(_customers_of_route(problem, decision)) + 1):
         trips = tuple(trip for number, trip in enumerate(decision.trips)
                       if number < known or customers_of(problem, trip))

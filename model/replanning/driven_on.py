@@ -9,7 +9,7 @@ from dataclasses import replace
 
 from model.judge.check import judge_route
 from model.judge.ends import with_ends
-from model.judge.past import Past, Vehicle
+from model.judge.past import Past
 from model.judge.retiming import time_route
 from model.judge.timing import (
     RouteDecision, TripDecision, latest_release, read_decision, schedule_trip,
@@ -20,7 +20,7 @@ from model.replanning.handover import complete
 from model.replanning.kept import Kept, by_launch, kept_routes, resumed
 from model.replanning.spans import awaiting, out_of_turn
 from model.replanning.workers import VehicleWorker
-from model.solution import Route, Solution, Trip
+from model.solution import Route, Solution, Trip, Vehicle
 
 
 def carried_through(problem: Problem, planned: Route, own: Kept, past: Past) -> Kept:
@@ -44,7 +44,7 @@ def kept_by(problem: Problem, plan: Solution,
     kept = kept_routes(problem, plan, past)
     through = {vehicle: carried_through(problem, route, kept[vehicle], past)
                for route in plan.routes
-               if (vehicle := Vehicle(route.vehicle_type, route.vehicle)) in kept
+               if (vehicle := route.driven_by) in kept
                and past.under_way(vehicle) is not None
                and any(violation.code == "UNREACHABLE" for violation
                        in judge_route(problem, kept[vehicle].route, "", past).violations)}
@@ -57,7 +57,7 @@ def going_through(problem: Problem, plan: Solution, past: Past, kept: Mapping[Ve
     going_on = {worker.vehicle for worker in workers if worker.is_under_way}
     found = {}
     for route in plan.routes:
-        vehicle = Vehicle(route.vehicle_type, route.vehicle)
+        vehicle = route.driven_by
         trip, own = past.under_way(vehicle), kept.get(vehicle)
         if trip is None or own is None or vehicle in going_on or not trip.aboard - own.served:
             continue
@@ -73,7 +73,7 @@ def as_it_stands(problem: Problem, plan: Solution, kept: Mapping[Vehicle, Kept])
     Vehicles that have begun to work come first, in the order of `kept`. What names somebody who is
     no more is left out as a whole.
     """
-    planned = {Vehicle(route.vehicle_type, route.vehicle): route for route in plan.routes
+    planned = {route.driven_by: route for route in plan.routes
                if route.trips}
     order = [*kept, *(vehicle for vehicle in planned if vehicle not in kept)]
     return complete(problem, tuple([
@@ -87,7 +87,7 @@ def driven_on(problem: Problem, plan: Solution, kept: Mapping[Vehicle, Kept],
 
     Vehicles that have begun to work come first, in the order of `kept`.
     """
-    planned = {Vehicle(route.vehicle_type, route.vehicle): route for route in plan.routes}
+    planned = {route.driven_by: route for route in plan.routes}
     routes, driven = list[Route](), set[Vehicle]()
     for vehicle in (*kept, *(vehicle for vehicle in planned if vehicle not in kept)):
         own = kept.get(vehicle)
@@ -124,7 +124,7 @@ def _in_turn(problem: Problem, decision: RouteDecision, own: Kept | None, past: 
 def _whole(problem: Problem, planned: Route, own: Kept | None, past: Past) -> RouteDecision:
     """Return a vehicle's decisions, what has happened first."""
     kind = problem.vehicle_types[planned.vehicle_type]
-    grounded = past.grounded_on(Vehicle(planned.vehicle_type, planned.vehicle))
+    grounded = past.grounded_on(planned.driven_by)
     begun: tuple[TripDecision, ...] = ()
     if own is not None:
         begun = _with_trip_under_way(problem, planned, own, past).trips
@@ -181,7 +181,7 @@ def _mended(problem: Problem, decision: RouteDecision, own: Kept | None,
 def _as_stated(problem: Problem, decision: RouteDecision, past: Past) -> Route:
     """Return a route whose trips begin when they state, if they can by then."""
     kind = problem.vehicle_types[decision.vehicle_type]
-    known = past.trips.get(Vehicle(decision.vehicle_type, decision.vehicle), ())
+    known = past.trips.get(decision.driven_by, ())
     trips = resumed(problem, decision, known, past.now)
     for trip in decision.trips[len(known):]:
         ready = max(kind.earliest, past.now)

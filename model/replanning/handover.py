@@ -9,7 +9,7 @@ from itertools import count
 from model.judge.chargers import with_charging
 from model.judge.ends import with_ends
 from model.judge.hubs import hub_violations
-from model.judge.past import EVERYTHING_OPEN, Past, Vehicle
+from model.judge.past import EVERYTHING_OPEN, Past
 from model.judge.retiming import time_route
 from model.judge.timing import (
     RouteDecision, TripDecision, latest_release, read_decision, schedule_trip,
@@ -20,7 +20,7 @@ from model.replanning.kept import Kept
 from model.replanning.relations import in_relation
 from model.replanning.remainder import Remainder
 from model.replanning.spans import awaiting, out_of_turn
-from model.solution import Route, Solution, Trip
+from model.solution import Route, Solution, Trip, Vehicle
 
 
 def hand_over(problem: Problem, plan: Solution, kept: Mapping[Vehicle, Kept],
@@ -35,7 +35,7 @@ def hand_over(problem: Problem, plan: Solution, kept: Mapping[Vehicle, Kept],
         if worker.is_under_way and (way_on := kept[worker.vehicle].way_on) is not None]
     used: Counter[int] = Counter()
     for route in plan.routes:
-        vehicle = Vehicle(route.vehicle_type, route.vehicle)
+        vehicle = route.driven_by
         kind = left.later(vehicle)
         if kind is None or used[kind] >= left.problem.vehicle_types[kind].count:
             continue
@@ -239,8 +239,7 @@ def _joined(begun: Trip, rest: Trip, nodes: Sequence[int], drones: Sequence[int]
 
 def _numbered(before: Solution, taken: set[Vehicle], routes: Sequence[Route]) -> list[Route]:
     """Return routes with vehicles that are free, those that served most of the same customers."""
-    servant = {node: Vehicle(route.vehicle_type, route.vehicle)
-               for route in before.routes for node in route.served}
+    servant = {node: route.driven_by for route in before.routes for node in route.served}
     shared = sorted(
         (-overlap, vehicle.number, index) for index, route in enumerate(routes)
         for vehicle, overlap in Counter(

@@ -4,11 +4,11 @@ from collections.abc import Collection, Iterator, Sequence
 from dataclasses import dataclass, replace
 
 from model.judge.energy import charges_at
-from model.judge.past import KnownSortie, KnownStop, KnownTrip, Past, Vehicle
+from model.judge.past import KnownSortie, KnownStop, KnownTrip, Past
 from model.judge.timing import RouteDecision, TripDecision, read_decision, resume_trip
 from model.problem import MAX_QUANTITY, UNREACHABLE, Problem, VehicleType
 from model.replanning.amend import broken_by, customers_of, repaired, without
-from model.solution import Charge, Route, Solution, Sortie, Stop, Trip
+from model.solution import Charge, Route, Solution, Sortie, Stop, Trip, Vehicle
 
 
 @dataclass(frozen=True)
@@ -50,7 +50,7 @@ def kept_routes(problem: Problem, plan: Solution, past: Past) -> dict[Vehicle, K
     A truck whose drone is in the air meets it where that was planned, and serves the stops up to
     there, as long as that breaks no rules.
     """
-    planned = {Vehicle(route.vehicle_type, route.vehicle): route for route in plan.routes}
+    planned = {route.driven_by: route for route in plan.routes}
     return {vehicle: _kept(problem, planned[vehicle], vehicle, past)
             for vehicle in planned if vehicle in past.trips}
 
@@ -144,7 +144,7 @@ def _as_sortie(known: KnownSortie, home: int) -> Sortie:
 def _continued(problem: Problem, decision: RouteDecision, planned: Trip, meeting: int,
                past: Past) -> Kept:
     """Return what a vehicle does that is under way, and how the plan has it go on."""
-    vehicle = Vehicle(decision.vehicle_type, decision.vehicle)
+    vehicle = decision.driven_by
     known = past.trips[vehicle]
     fixed = set(_fixed_nodes(known[-1]))
     last = without(decision.trips[-1], {-1})

@@ -9,11 +9,11 @@ from collections.abc import Collection, Iterator
 from dataclasses import replace
 from itertools import groupby, takewhile
 
-from model.judge.past import KnownStop, KnownTrip, Vehicle, bound_until, known_trip
+from model.judge.past import KnownStop, KnownTrip, bound_until, known_trip
 from model.judge.timing import read_decision, resume_trip
 from model.problem import Problem, VehicleType
 from model.replanning.kept import by_launch
-from model.solution import BreakPlace, Route, Solution, TakenBreak, Trip
+from model.solution import BreakPlace, Route, Solution, TakenBreak, Trip, Vehicle
 
 
 def as_late(problem: Problem, plan: Solution, now: int,
@@ -23,7 +23,7 @@ def as_late(problem: Problem, plan: Solution, now: int,
     Those that break down do nothing more but land where they fly.
     """
     return replace(plan, routes=tuple([
-        route if (route.vehicle_type, route.vehicle) in unavailable
+        route if route.driven_by in unavailable
         and not problem.vehicle_types[route.vehicle_type].flies
         else _as_late(problem, route, now) for route in plan.routes]))
 

@@ -11,14 +11,13 @@ from dataclasses import replace
 from itertools import accumulate, pairwise
 from typing import NamedTuple
 
-from model.judge.past import Vehicle
 from model.problem import MAX_QUANTITY, Customer, Problem
-from model.solution import Route, Solution, Stop
+from model.solution import Route, Solution, Stop, Vehicle
 
 
 def orders_of(plan: Solution) -> dict[Vehicle, tuple[int, ...]]:
     """Return whom each truck serves, in its order."""
-    return {Vehicle(route.vehicle_type, route.vehicle): tuple(stop.node for stop in _stops(route))
+    return {route.driven_by: tuple(stop.node for stop in _stops(route))
             for route in plan.routes}
 
 
@@ -46,7 +45,7 @@ def by_order(plan: Solution, orders: Mapping[Vehicle, Sequence[int]]) -> Solutio
     """Return a plan whose trucks keep an order at an instant, too, which no window tells."""
     routes = []
     for route in plan.routes if orders else ():
-        order = orders.get(Vehicle(route.vehicle_type, route.vehicle), ())
+        order = orders.get(route.driven_by, ())
         places = {node: place for place, node in enumerate(order)}
         routes.append(replace(route, trips=tuple(
             replace(trip, stops=_ordered(trip.stops, places)) for trip in route.trips)))

@@ -8,9 +8,9 @@ several parts are yet to be fetched, these are a shipment, with which the parcel
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
-from model.judge.past import Vehicle, known_trips
+from model.judge.past import known_trips
 from model.problem import Customer, Problem, Relation, Shipment
-from model.solution import Solution
+from model.solution import Solution, Vehicle
 
 
 @dataclass(frozen=True)
@@ -42,7 +42,7 @@ def parted_shipments(problem: Problem, plan: Solution, now: int,
     if not problem.shipments:
         return []
     routes = tuple(route for route in plan.routes
-                   if (route.vehicle_type, route.vehicle) in unavailable)
+                   if route.driven_by in unavailable)
     served: dict[int, Vehicle] = {}
     for vehicle, trips in known_trips(problem, Solution(routes), now, unavailable).items():
         served |= dict.fromkeys(frozenset[int]().union(*(trip.served for trip in trips)), vehicle)

@@ -6,12 +6,12 @@ import numpy as np
 
 from model.counsel.explain import POSSIBLE, Reason, explain_type
 from model.counsel.remedy import remedy_of
-from model.judge.past import Past, Vehicle
+from model.judge.past import Past
 from model.judge.relations import kept_off, who_decides
 from model.problem import Problem
 from model.replanning.remainder import Remainder
 from model.replanning.workers import vehicle_name
-from model.solution import Solution
+from model.solution import Solution, Vehicle
 
 
 def bound_reasons(problem: Problem, vehicle: Vehicle, is_aboard: bool) -> tuple[Reason, ...]:

@@ -3,7 +3,7 @@
 from collections.abc import Collection, Iterable, Iterator
 from dataclasses import replace
 
-from model.judge.past import Past, Vehicle
+from model.judge.past import Past
 from model.judge.rules import Violation
 from model.solution import Solution
 
@@ -27,7 +27,7 @@ def refuse(violations: Iterable[Violation]) -> None:
 def gone_from(plan: Solution, past: Past) -> Iterator[Violation]:
     """Yield where something has happened at places that are no more."""
     for index, route in enumerate(plan.routes):
-        known = past.trips.get(Vehicle(route.vehicle_type, route.vehicle), ())
+        known = past.trips.get(route.driven_by, ())
         for number, trip in enumerate(known):
             path = f"routes[{index}].trips[{number}]"
             for place, stop in enumerate(trip.stops):
@@ -42,8 +42,7 @@ def gone_from(plan: Solution, past: Past) -> Iterator[Violation]:
 def as_given(plan: Solution, settled: Solution, violations: Iterable[Violation],
              codes: Collection[str]) -> Iterator[Violation]:
     """Yield violations of some codes by the settled routes with paths in the plan given."""
-    places = {(route.vehicle_type, route.vehicle): index
-              for index, route in enumerate(plan.routes)}
+    places = {route.driven_by: index for index, route in enumerate(plan.routes)}
     for violation in violations:
         if violation.code not in codes:
             continue
@@ -51,7 +50,7 @@ def as_given(plan: Solution, settled: Solution, violations: Iterable[Violation],
         if begin.startswith("routes["):
             number = int(begin.removeprefix("routes["))
             route = settled.routes[number]
-            index = places[route.vehicle_type, route.vehicle]
+            index = places[route.driven_by]
             path = violation.path.replace(f"routes[{number}]", f"routes[{index}]", 1)
             violation = replace(violation, path=path)
         yield violation

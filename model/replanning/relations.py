@@ -5,12 +5,12 @@ from dataclasses import replace
 
 import numpy as np
 
-from model.judge.past import Vehicle
 from model.judge.timing import RouteDecision
 from model.problem import BoolArray, Problem, Relation
 from model.replanning.amend import customers_of, without
 from model.replanning.kept import Kept
 from model.replanning.workers import VehicleWorker
+from model.solution import Vehicle
 
 
 def relations_left(problem: Problem, owners: Mapping[int, VehicleWorker],

@@ -11,7 +11,7 @@ import numpy as np
 
 from model.judge.freshness import first_departure
 from model.judge.hubs import batteries_taken
-from model.judge.past import Past, Vehicle
+from model.judge.past import Past
 from model.problem import BoolArray, Customer, Depot, FloatArray, Problem, VehicleType
 from model.problem.altered import with_customers
 from model.replanning.amend import customers_of
@@ -20,6 +20,7 @@ from model.replanning.relations import relations_left, relations_table
 from model.replanning.shares import fairness_left
 from model.replanning.spans import flown_alone, spans_left, with_spans
 from model.replanning.workers import VehicleWorker, from_now_on
+from model.solution import Vehicle
 
 NOBODY, ANYBODY = -1, -2
 """Instead of the only type that may serve a customer."""

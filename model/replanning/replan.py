@@ -14,7 +14,7 @@ from model.judge.changes import ChangePrices, EarlierPlan, PlanChanges, count_ch
 from model.judge.chargers import with_charging
 from model.judge.check import Evaluation, check
 from model.judge.memory import Memory
-from model.judge.past import Past, Vehicle, known_trips, parcels_aboard
+from model.judge.past import Past, known_trips, parcels_aboard
 from model.judge.past_rules import PAST_RULES
 from model.planner import (
     ALONE, Elapsed, Listener, PlanCheckError, Planner, PlanOptions, PlanResult,
@@ -33,7 +33,7 @@ from model.replanning.refusing import as_given, gone_from, refuse
 from model.replanning.remainder import held_back, what_is_left
 from model.replanning.searching import Bridge, begin, joined, relayed, searches
 from model.replanning.workers import find_workers
-from model.solution import Route, Solution, renumbered
+from model.solution import Route, Solution, Vehicle, renumbered
 
 NOBODY_HELD: Mapping[int, int] = MappingProxyType({})
 
@@ -278,7 +278,7 @@ class Replanning:
         left = self.left
         if left is None:
             return Solution(())
-        vehicles = [Vehicle(route.vehicle_type, route.vehicle) for route in solution.routes]
+        vehicles = [route.driven_by for route in solution.routes]
         routes = [Route(own, vehicle.number, route.trips[self._trips_kept(vehicle):])
                   for vehicle, route in zip(vehicles, solution.routes, strict=True)
                   if (own := left.later(vehicle)) is not None
@@ -316,9 +316,9 @@ def _past(problem: Problem, terms: Terms) -> Past:
     known = {}
     if terms.now is not None:
         known = known_trips(problem, terms.plan, terms.now, terms.unavailable)
-    there = {node: Vehicle(route.vehicle_type, route.vehicle)
+    there = {node: route.driven_by
              for route in terms.plan.routes for node in route.served
-             if node >= 0 and (route.vehicle_type, route.vehicle) not in terms.unavailable}
+             if node >= 0 and route.driven_by not in terms.unavailable}
     pinned = {node: vehicle for node, vehicle in there.items() if node in terms.pinned
               or (terms.concerned is not None and _may_serve(problem, vehicle, node))}
     orders = {}

@@ -5,7 +5,7 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 from model.judge.check import Evaluation, check
-from model.judge.past import Past, Vehicle
+from model.judge.past import Past
 from model.planner import (
     Completed, Elapsed, Listener, Planner, PlanOptions, PlanResult, Progress, complete_plan,
 )
@@ -15,7 +15,7 @@ from model.replanning.kept import Kept
 from model.replanning.order import in_order
 from model.replanning.remainder import Remainder
 from model.replanning.undoing import take_back_changes
-from model.solution import Solution
+from model.solution import Solution, Vehicle
 
 TAKING_BACK = 0.1
 """Share of the time limit in which changes are taken back, after each of two searches."""

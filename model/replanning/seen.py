@@ -5,14 +5,13 @@ from dataclasses import replace
 
 from model.counsel.bench import Bench
 from model.counsel.slots import SearchedPlan
-from model.judge.past import Vehicle
 from model.judge.places import Place
 from model.problem import Customer
 from model.problem.altered import with_customers
 from model.replanning.handover import hand_over, take_back
 from model.replanning.kept import Kept
 from model.replanning.replan import Replanning
-from model.solution import Solution
+from model.solution import Solution, Vehicle
 
 
 def seen(replanning: Replanning, bench: Bench,
@@ -27,13 +26,13 @@ def seen(replanning: Replanning, bench: Bench,
     kept = {each.vehicle: each for each in replanning.kept}
     known, used = dict[Vehicle, Vehicle](), Counter[int]()
     for route in plan.routes:
-        vehicle = Vehicle(route.vehicle_type, route.vehicle)
+        vehicle = route.driven_by
         kind = left.later(vehicle)
         if kind is not None and len(route.trips) > _begun(kept, vehicle):
             known[Vehicle(kind, used[kind])] = vehicle
             used[kind] += 1
     taken = {*kept, *replanning.past.unavailable, *(
-        Vehicle(route.vehicle_type, route.vehicle) for route in plan.routes)}
+        route.driven_by for route in plan.routes)}
 
     def whole(place: Place) -> Place | None:
         kind = place.vehicle.type

@@ -5,10 +5,11 @@ from dataclasses import replace
 
 from model.judge.check import judge_route
 from model.judge.fairness import share_of
-from model.judge.past import Past, Vehicle
+from model.judge.past import Past
 from model.problem import Before, Fairness, Measure, Problem
 from model.replanning.kept import Kept
 from model.replanning.workers import VehicleWorker
+from model.solution import Vehicle
 
 
 def fairness_left(problem: Problem, past: Past, kept: Mapping[Vehicle, Kept],

@@ -9,11 +9,10 @@ from dataclasses import replace
 import numpy as np
 
 from model.judge.lags import Awaited, soonest_after, starts_across, starts_of
-from model.judge.past import Vehicle
 from model.judge.timing import RouteDecision
 from model.problem import SINCE_PLAN_START, UNLIMITED, BoolArray, Customer, Problem, Relation
 from model.replanning.kept import Kept
-from model.solution import Route
+from model.solution import Route, Vehicle
 
 Span = tuple[int, int]
 """From when to when service may begin, in ms."""

@@ -16,7 +16,7 @@ from model.judge.timing import RouteDecision
 from model.problem import Problem
 from model.replanning.amend import without
 from model.replanning.handover import complete
-from model.solution import Route, Solution
+from model.solution import Route, Solution, Vehicle
 
 NEAR = 5
 """Beside how many customers somebody is tried."""
@@ -52,10 +52,9 @@ def take_back_changes(problem: Problem, first: Solution, found: Solution,
                 break
 
 
-def _tours(plan: Solution) -> dict[tuple[int, int], list[int]]:
+def _tours(plan: Solution) -> dict[Vehicle, list[int]]:
     """Return whom each vehicle serves by itself, in order."""
-    return {(route.vehicle_type, route.vehicle):
-            [stop.node for trip in route.trips for stop in trip.customer_stops]
+    return {route.driven_by: [stop.node for trip in route.trips for stop in trip.customer_stops]
             for route in plan.routes}
 
 
@@ -82,7 +81,7 @@ def _turned(problem: Problem, plan: Solution, changed: Collection[int]) -> Itera
                                         *plan.routes[index + 1:]))
 
 
-def _changed(was: dict[tuple[int, int], list[int]], plan: Solution) -> list[int]:
+def _changed(was: dict[Vehicle, list[int]], plan: Solution) -> list[int]:
     """Return whom trucks serve who are new, moved, or on a route of another order."""
     changed = []
     for vehicle, tour in _tours(plan).items():
@@ -96,7 +95,7 @@ def _changed(was: dict[tuple[int, int], list[int]], plan: Solution) -> list[int]
 def _elsewhere(problem: Problem, first: Solution, plan: Solution,
                node: int) -> Iterator[Solution]:
     """Yield plans in which a customer is at another place."""
-    routes = {(route.vehicle_type, route.vehicle): route for route in plan.routes}
+    routes = {route.driven_by: route for route in plan.routes}
     own = next(vehicle for vehicle, tour in _tours(plan).items() if node in tour)
     left = _without(problem, read_route(problem, routes[own]), node)
     if left is None:
@@ -104,7 +103,7 @@ def _elsewhere(problem: Problem, first: Solution, plan: Solution,
     others = {vehicle: read_route(problem, route) for vehicle, route in routes.items()
               if vehicle != own} | ({own: left} if left.trips else {})
     for joined in (*_former(problem, first, others, node), *_beside(problem, others, node)):
-        vehicle = joined.vehicle_type, joined.vehicle
+        vehicle = joined.driven_by
         changed = {vehicle: joined} if vehicle == own or not left.trips else {
             own: left, vehicle: joined}
         timed = {each: time_route(problem, decision, "", EVERYTHING_OPEN).route
@@ -125,11 +124,11 @@ def _without(problem: Problem, route: RouteDecision, node: int) -> RouteDecision
     return replace(route, trips=with_ends(problem.vehicle_types[route.vehicle_type], trips))
 
 
-def _former(problem: Problem, first: Solution, routes: dict[tuple[int, int], RouteDecision],
+def _former(problem: Problem, first: Solution, routes: dict[Vehicle, RouteDecision],
             node: int) -> Iterator[RouteDecision]:
     """Yield the route with a customer that had him before, behind those before him."""
     for route in first.routes:
-        vehicle = route.vehicle_type, route.vehicle
+        vehicle = route.driven_by
         for trip in route.trips:
             nodes = [stop.node for stop in trip.stops]
             if node not in nodes[1:-1]:
@@ -155,7 +154,7 @@ def _alone(problem: Problem, route: Route, node: int) -> RouteDecision:
         [trip for trip in trips if node in trip.nodes]))
 
 
-def _beside(problem: Problem, routes: dict[tuple[int, int], RouteDecision],
+def _beside(problem: Problem, routes: dict[Vehicle, RouteDecision],
             node: int) -> Iterator[RouteDecision]:
     """Yield routes with a customer beside those who are nearest to him."""
     near = sorted(

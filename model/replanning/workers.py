@@ -17,11 +17,12 @@ from model.judge.flown_trips import charged_between
 from model.judge.freshness import first_departure
 from model.judge.loads import highest, trip_loads
 from model.judge.metrics import allowed_overtime
-from model.judge.past import Past, Vehicle
+from model.judge.past import Past
 from model.problem import MAX_QUANTITY, MS_PER_HOUR, Problem, VehicleType, shares_chargers
 from model.replanning.amend import customers_of
 from model.replanning.kept import Kept, WayOn, charged_then, with_drones_then
 from model.replanning.rested import with_clock
+from model.solution import Vehicle
 
 MAX_OWN_TYPES = 500
 """Types that vehicles may become; memory grows by them."""

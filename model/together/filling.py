@@ -12,7 +12,7 @@ from model.judge.past import EVERYTHING_OPEN
 from model.judge.retiming import TimedRoute, read_route, time_route
 from model.judge.timing import RouteDecision, TripDecision
 from model.problem import Problem
-from model.solution import Solution
+from model.solution import Solution, Vehicle
 from model.together.joint import Joint
 from model.together.strings import Breadth, Gap, TruckNetwork, best_strings
 
@@ -24,8 +24,6 @@ LONGEST_PART = 12
 
 SHAKEN = 0.25
 """How much longer or shorter legs may seem."""
-
-Vehicle = tuple[int, int]
 
 
 @dataclass(frozen=True)
@@ -70,7 +68,7 @@ class Filling:
         self._routes: dict[Vehicle, TimedRoute] = {}
         for route in plan.routes:
             timed = time_route(problem, read_route(problem, route), "", EVERYTHING_OPEN)
-            self._routes[route.vehicle_type, route.vehicle] = timed
+            self._routes[route.driven_by] = timed
 
     @property
     def plan(self) -> Solution:
@@ -120,7 +118,7 @@ class Filling:
             if self._joint.streets(kind) is not None:
                 free = [number for number in range(vehicles.count)
                         if (kind, number) not in self._routes]
-                found += [StopsBetween((kind, number), 0, 0, 1)
+                found += [StopsBetween(Vehicle(kind, number), 0, 0, 1)
                           for number in free[:len(self._left_out)]]
         return found
 

@@ -13,8 +13,8 @@ from model.engine.pausing import EndedError, pausing
 from model.problem import Problem
 from model.search.improve import SearchConfig, improve
 from model.search.regions.part import RegionProblem, part_of
-from model.search.regions.region import Region, Vehicle, vehicle_of
-from model.solution import Solution
+from model.search.regions.region import Region
+from model.solution import Solution, Vehicle
 from model.together.filling import Filling
 from model.together.joint import Joint
 from model.together.relaxed import relaxed
@@ -121,10 +121,10 @@ class Pulling:
         """Return the routes without flights, with vehicles to spare and some of those left out."""
         routes = tuple([route for route in plan.routes
                         if not any(trip.sorties for trip in route.trips)])
-        used = set(map(vehicle_of, plan.routes))
+        used = {route.driven_by for route in plan.routes}
         spare: list[Vehicle] = []
         for kind, vehicles in enumerate(self._problem.vehicle_types):
-            free = ((kind, number) for number in range(vehicles.count)
+            free = (Vehicle(kind, number) for number in range(vehicles.count)
                     if (kind, number) not in used)
             spare += islice(free, len(chosen))
         return Region(Solution(routes, tuple(sorted(chosen))), tuple(spare))
@@ -141,6 +141,6 @@ class Pulling:
                           self._rng)
         for route, verdict in judged:
             if verdict.violations:
-                filling.put(vehicle_of(route), verdict.nodes)
+                filling.put(route.driven_by, verdict.nodes)
         filling.fill(0)
         return filling.plan

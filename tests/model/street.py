@@ -3,12 +3,11 @@
 from dataclasses import replace
 from typing import Any
 
-from model.judge.past import Vehicle
 from model.judge.timing import RouteDecision, TripDecision, schedule
 from model.planner import Planner, PlanOptions
 from model.problem import Problem
 from model.replanning.replan import Replanning, Terms
-from model.solution import Route, Solution, Trip
+from model.solution import Route, Solution, Trip, Vehicle
 
 MINUTE = 60_000
 ONE, TWO = Vehicle(0, 0), Vehicle(0, 1)
@@ -59,7 +58,7 @@ def minutes(trip: Trip) -> list[tuple[int, float, float]]:
 def route_of(solution: Solution, vehicle: Vehicle) -> Route:
     """Return a vehicle's route."""
     return next(route for route in solution.routes
-                if (route.vehicle_type, route.vehicle) == vehicle)
+                if route.driven_by == vehicle)
 
 
 def with_customer(problem: Problem, node: int, **changes: object) -> Problem:

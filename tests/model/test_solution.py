@@ -32,7 +32,7 @@ def test_plan_in_other_numbers_and_back_is_the_same_plan(plan: Solution) -> None
 def test_vehicles_get_other_numbers_if_asked_for(plan: Solution) -> None:
     other = renumbered(plan, int, lambda kind, vehicle: (kind + 2, vehicle + 5))
     for before, now in zip(plan.routes, other.routes, strict=True):
-        assert (now.vehicle_type, now.vehicle) == (before.vehicle_type + 2, before.vehicle + 5)
+        assert now.driven_by == (before.vehicle_type + 2, before.vehicle + 5)
         assert now.trips == before.trips
 
 

@@ -6,8 +6,8 @@ from itertools import islice
 import numpy as np
 
 from model.problem import FloatArray, IntArray, Problem
-from model.search.regions.region import Region, Vehicle, vehicle_of
-from model.solution import Solution
+from model.search.regions.region import Region
+from model.solution import Solution, Vehicle
 
 ROWS = 1024
 """For how many customers left out the nearest route is looked for together."""
@@ -103,11 +103,11 @@ def _nearest(places: FloatArray, centre: FloatArray) -> IntArray:
 def _dealt(problem: Problem, plan: Solution, size: IntArray, left_out: Sequence[int],
            rng: np.random.Generator) -> list[list[Vehicle]]:
     """Return the vehicles without a route of each region, no more than it has customers."""
-    used = set(map(vehicle_of, plan.routes))
+    used = {route.driven_by for route in plan.routes}
     order = sorted(rng.permutation(len(size)).tolist(), key=lambda number: -left_out[number])
     dealt: list[list[Vehicle]] = [[] for _ in size]
     for kind, vehicle_type in enumerate(problem.vehicle_types):
-        free = ((kind, number) for number in range(vehicle_type.count)
+        free = (Vehicle(kind, number) for number in range(vehicle_type.count)
                 if (kind, number) not in used)
         for index, vehicle in enumerate(islice(free, int(size.max()) * len(size))):
             region = order[index % len(order)]

@@ -8,8 +8,8 @@ import numpy as np
 
 from model.problem import Depot, Problem
 from model.search.beginning.stock import batteries_taken
-from model.search.regions.region import Region, Vehicle
-from model.solution import Solution, renumbered
+from model.search.regions.region import Region
+from model.solution import Solution, Vehicle, renumbered
 
 
 @dataclass(frozen=True)
@@ -29,7 +29,7 @@ class RegionProblem:
         """Return a plan of the region in the numbers of this part; raises `KeyError` if it isn't.
         """
         return renumbered(plan, self._number.__getitem__,
-                           lambda kind, number: self._vehicle[kind, number])
+                           lambda kind, number: self._vehicle[Vehicle(kind, number)])
 
     @cached_property
     def _number(self) -> dict[int, int]:
@@ -37,7 +37,7 @@ class RegionProblem:
 
     @cached_property
     def _vehicle(self) -> dict[Vehicle, Vehicle]:
-        return {vehicle: (kind, number) for kind, all_of_it in enumerate(self.vehicles)
+        return {vehicle: Vehicle(kind, number) for kind, all_of_it in enumerate(self.vehicles)
                 for number, vehicle in enumerate(all_of_it)}
 
 

@@ -2,10 +2,8 @@
 
 from dataclasses import dataclass, replace
 
-from model.solution import Route, Solution
+from model.solution import Solution, Vehicle
 
-Vehicle = tuple[int, int]
-"""Type, an index into `Problem.vehicle_types`, and number within it."""
 
 
 @dataclass(frozen=True)
@@ -18,12 +16,7 @@ class Region:
     @property
     def vehicles(self) -> tuple[Vehicle, ...]:
         """All vehicles that it may use."""
-        return (*map(vehicle_of, self.plan.routes), *self.spare)
-
-
-def vehicle_of(route: Route) -> Vehicle:
-    """Return the vehicle that drives a route."""
-    return route.vehicle_type, route.vehicle
+        return (*[route.driven_by for route in self.plan.routes], *self.spare)
 
 
 def put_back(whole: Solution, region: Region, found: Solution) -> Solution | None:
@@ -32,11 +25,11 @@ def put_back(whole: Solution, region: Region, found: Solution) -> Solution | Non
     It is once any of the region's routes has changed, one of its spare vehicles that is needed has
     a route or somebody is served by now whom the region left out. Nothing is judged.
     """
-    routes = {vehicle_of(route): route for route in whole.routes}
-    own = {vehicle_of(route) for route in region.plan.routes}
-    used = {vehicle_of(route) for route in found.routes}
+    routes = {route.driven_by: route for route in whole.routes}
+    own = {route.driven_by for route in region.plan.routes}
+    used = {route.driven_by for route in found.routes}
     left_out = set(whole.unassigned)
-    if any(routes.get(vehicle_of(route)) != route for route in region.plan.routes):
+    if any(routes.get(route.driven_by) != route for route in region.plan.routes):
         return None
     if not left_out.issuperset(region.plan.unassigned):
         return None
@@ -49,5 +42,5 @@ def put_back(whole: Solution, region: Region, found: Solution) -> Solution | Non
 
 def in_order(plan: Solution) -> Solution:
     """Return the same plan by vehicles, so that sums over it are the same in every process."""
-    return replace(plan, routes=tuple(sorted(plan.routes, key=vehicle_of)),
+    return replace(plan, routes=tuple(sorted(plan.routes, key=lambda route: route.driven_by)),
                    unassigned=tuple(sorted(plan.unassigned)))

@@ -7,9 +7,8 @@ from model.counsel.alternatives import find_alternatives
 from model.counsel.bench import Bench
 from model.counsel.screening import Screen
 from model.judge.check import check
-from model.judge.past import Vehicle
 from model.judge.timing import RouteDecision, SortieDecision, TripDecision, schedule
-from model.solution import Solution
+from model.solution import Solution, Vehicle
 from tests.model.tiny import (
     draw_tiny, with_gaps, with_limits_aboard, with_own_costs, with_setups, with_table,
 )

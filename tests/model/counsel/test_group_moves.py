@@ -12,10 +12,10 @@ from model.counsel.bench import Bench
 from model.counsel.fitting import find_fits, new_violations
 from model.counsel.group_moves import companions_to
 from model.judge.check import check
-from model.judge.past import EVERYTHING_OPEN, Vehicle
+from model.judge.past import EVERYTHING_OPEN
 from model.judge.retiming import time_route
 from model.problem import Customer, Depot, Problem, Travel, VehicleType
-from model.solution import Solution
+from model.solution import Solution, Vehicle
 from tests.model.counsel.test_shipment_places import bench_of, greedy, routes
 from tests.model.tiny_company import with_relations
 from tests.model.tiny_shipments import with_shipments
@@ -24,7 +24,7 @@ MINUTE, KM = 60_000, 1_000_000
 
 
 def served_by(solution: Solution) -> dict[int, Vehicle]:
-    return {node: Vehicle(route.vehicle_type, route.vehicle)
+    return {node: route.driven_by
             for route in solution.routes for node in route.served}
 
 
@@ -46,7 +46,7 @@ def cheapest_by_vehicle(problem: Problem, left_out: Solution,
         plan = Solution((*left_out.routes[:index], timed.route, *left_out.routes[index + 1:]),
                         unassigned)
         evaluation = check(problem, plan)
-        vehicle = Vehicle(decision.vehicle_type, decision.vehicle)
+        vehicle = decision.driven_by
         if evaluation.is_feasible:
             cost = evaluation.cost.total
             found[vehicle] = min(cost, found.get(vehicle, math.inf))

@@ -6,8 +6,9 @@ import pytest
 
 from model.counsel.bench import Setting
 from model.counsel.idle_drones import idle_drones
-from model.judge.past import Past, Vehicle
+from model.judge.past import Past
 from model.judge.timing import SortieDecision
+from model.solution import Vehicle
 from tests.model.counsel.test_alternatives import A, B, C, D, plan, route
 
 MINUTE = 60_000

@@ -8,10 +8,10 @@ import pytest
 
 from model.counsel.explain import Reason, explain
 from model.counsel.more_trips import with_another_trip
-from model.judge.past import EVERYTHING_OPEN, Past, Vehicle, known_trips
+from model.judge.past import EVERYTHING_OPEN, Past, known_trips
 from model.judge.retiming import read_route, time_route
 from model.judge.timing import RouteDecision, TripDecision, schedule
-from model.solution import Solution
+from model.solution import Solution, Vehicle
 from tests.model.remedies import applied
 
 MINUTE = 60_000

@@ -8,10 +8,10 @@ import numpy as np
 import pytest
 
 from model.counsel.bench import Bench, Drafted
-from model.judge.past import Vehicle
 from model.judge.places import Means
 from model.problem import Problem
 from model.search.priced_places import PlacePrices
+from model.solution import Vehicle
 from tests.model.counsel.test_shipment_places import bench_of, greedy
 from tests.model.tiny import draw_tiny, with_gaps, with_table
 from tests.model.tiny_shipments import with_flown_parts, with_flown_shipments, with_shipments
@@ -38,7 +38,7 @@ def known_to_search(bench: Bench) -> set[Vehicle]:
     """Return the vehicles in use whose routes keep the rules as the search times them."""
     plan = bench.left_out.solution
     known = PlacePrices(bench.problem, plan).routes
-    return {Vehicle(route.vehicle_type, route.vehicle) for index, route in enumerate(plan.routes)
+    return {route.driven_by for index, route in enumerate(plan.routes)
             if index in known}
 
 

@@ -6,10 +6,10 @@ import pytest
 
 from model.counsel.explain import explain
 from model.judge.check import check
-from model.judge.past import Past, Vehicle, known_trips
+from model.judge.past import Past, known_trips
 from model.judge.timing import RouteDecision, SortieDecision, TripDecision, read_decision, schedule
 from model.problem import VehicleType
-from model.solution import Solution
+from model.solution import Solution, Vehicle
 
 MINUTE = 60_000
 

@@ -5,11 +5,10 @@ from itertools import product
 import pytest
 
 from model.judge.breaks import BreakDecision
-from model.judge.past import Vehicle
 from model.judge.places import Found, Place, routes_without
 from model.judge.timing import RouteDecision, TripDecision
 from model.problem import REST
-from model.solution import BreakPlace
+from model.solution import BreakPlace, Vehicle
 
 PLACES: tuple[BreakPlace, ...] = "departure", "way", "arrival"
 

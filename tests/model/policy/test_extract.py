@@ -32,7 +32,7 @@ def test_actions_become_routes_trips_and_sorties(tiny_problem, customers, truck,
         (OPEN, 0), (DRIVE, 1), (LAUNCH, 2), (RETURN, 0), (DRIVE, 3), (RETURN, 0),
         (OPEN, 0), (DRIVE, 4), (RETURN, 0)))
     assert solution.unassigned == ()
-    assert [(route.vehicle_type, route.vehicle) for route in solution.routes] == [(0, 0), (0, 1)]
+    assert [route.driven_by for route in solution.routes] == [(0, 0), (0, 1)]
     nodes = [[[stop.node for stop in trip.stops] for trip in route.trips]
              for route in solution.routes]
     assert nodes == [[[0, 1, 0], [0, 3, 0]], [[0, 4, 0]]]

@@ -24,8 +24,7 @@ OPTIONS = PlanOptions("any", time_limit=600.0, search_iterations=300)
 
 def tours_of(plan: Solution) -> dict[tuple[int, int], list[int]]:
     """Return whom each vehicle serves, in order."""
-    return {(route.vehicle_type, route.vehicle):
-            [stop.node for trip in route.trips for stop in trip.customer_stops]
+    return {route.driven_by: [stop.node for trip in route.trips for stop in trip.customer_stops]
             for route in plan.routes}
 
 

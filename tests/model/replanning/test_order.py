@@ -6,12 +6,12 @@ import numpy as np
 import pytest
 
 from model.judge.check import check
-from model.judge.past import Past, Vehicle
+from model.judge.past import Past
 from model.planner import Planner, PlanOptions
 from model.problem import Customer, Problem
 from model.replanning.order import by_order, in_order, orders_of
 from model.replanning.replan import Terms
-from model.solution import Route, Solution, Stop, Trip
+from model.solution import Route, Solution, Stop, Trip, Vehicle
 from tests.model.street import (
     MINUTE, ONE, A, B, C, D, planned, replan, route_of, served, with_customer,
 )

@@ -9,12 +9,11 @@ import pytest
 
 from model.judge.check import check
 from model.judge.launches import launch_begins
-from model.judge.past import Vehicle
 from model.planner import Planner, PlanOptions
 from model.problem import Balance, Fairness, Measure, Problem, Travel
 from model.replanning.replan import Replanning, Terms
 from model.replanning.rested import has_clock
-from model.solution import Route, Solution, Trip
+from model.solution import Route, Solution, Trip, Vehicle
 from tests.model.fliers import from_few_hubs, with_fliers
 from tests.model.street import served
 from tests.model.permits import with_closings, with_few_airborne, with_ranges, with_storms
@@ -107,9 +106,9 @@ def settled(problem: Problem, plan: Solution, now: int) -> set[int]:
 def assert_unchanged(problem: Problem, before: Solution, after: Solution, now: int,
                      broken: frozenset[Vehicle]) -> None:
     """Hold all that had departed by now against the new plan, to the millisecond."""
-    routes = {(route.vehicle_type, route.vehicle): route for route in after.routes}
+    routes = {route.driven_by: route for route in after.routes}
     for route in before.routes:
-        vehicle = Vehicle(route.vehicle_type, route.vehicle)
+        vehicle = route.driven_by
         if vehicle in broken:
             continue
         for number, left, launched in begun(problem, route, now):
@@ -180,7 +179,7 @@ def replan_and_check(planner: Planner, whole: Problem, rng: np.random.Generator,
         replace(route, trips=tuple(renumbered(trip, nodes) for trip in route.trips))
         for route in plan.routes))
     problem = something_happens(rng, part_of(whole, kept), max(times))
-    broken = frozenset(Vehicle(route.vehicle_type, route.vehicle) for route in plan.routes
+    broken = frozenset(route.driven_by for route in plan.routes
                        if rng.random() < 0.15)
     pinned = frozenset(node for node in served(*given.routes) if rng.random() < 0.1)
     keeps_order = rng.random() < 0.5
@@ -332,7 +331,7 @@ def test_breaks_are_taken_in_plans_that_are_changed_before_the_day(
         replanning = Replanning(problem, Terms(plan.solution, pinned=pinned))
         as_it_was = replanning.plan(planner, replace(OPTIONS, search_iterations=0))
         assert as_it_was.final_cost <= plan.final_cost * (1 + 1e-9)
-        busy = [Vehicle(route.vehicle_type, route.vehicle) for route in plan.solution.routes]
+        busy = [route.driven_by for route in plan.solution.routes]
         lacking = Replanning(problem, Terms(plan.solution, unavailable=frozenset(busy[:1])))
         assert check(problem, lacking.plan(planner, OPTIONS).solution).violations == ()
 

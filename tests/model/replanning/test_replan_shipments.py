@@ -5,11 +5,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from model.judge.past import Vehicle
 from model.planner import Planner
 from model.problem import Problem, Relation, RelationKind, Shipment
 from model.replanning.replan import Replanning, Terms
-from model.solution import Solution
+from model.solution import Solution, Vehicle
 from tests.model.replanning.test_replan_random import (
     OPTIONS, assert_unchanged, begun, instants, lost, nobody, replan_later, something_happens,
 )
@@ -21,7 +20,7 @@ from tests.model.tiny_shipments import with_shipments
 
 def parts_of(problem: Problem, plan: Solution) -> dict[int, tuple[Vehicle, int]]:
     """Return on which vehicle's trip ends of shipments are served."""
-    return {stop.node: (Vehicle(route.vehicle_type, route.vehicle), number)
+    return {stop.node: (route.driven_by, number)
             for route in plan.routes for number, trip in enumerate(route.trips)
             for stop in trip.stops if stop.node in problem.shipment_at}
 
@@ -46,7 +45,7 @@ def test_tiny_plans_with_shipments_go_on(planner: Planner, seed: int) -> None:
     broken: frozenset[Vehicle] = frozenset()
     if seed % 2:
         now = fetched_at(problem, plan) or now
-        broken = frozenset(Vehicle(route.vehicle_type, route.vehicle) for route in plan.routes
+        broken = frozenset(route.driven_by for route in plan.routes
                            if rng.random() < 0.7)
     terms = Terms(plan, now, unavailable=broken, grounded=lost(rng, problem))
     replanning = Replanning(problem, terms)
@@ -55,7 +54,7 @@ def test_tiny_plans_with_shipments_go_on(planner: Planner, seed: int) -> None:
     assert_unchanged(problem, plan, result.solution, now, broken)
     stays, before = parts_of(problem, result.solution), parts_of(problem, plan)
     for route in plan.routes:
-        vehicle = Vehicle(route.vehicle_type, route.vehicle)
+        vehicle = route.driven_by
         if vehicle in broken:
             continue
         for number, _, _ in begun(problem, route, now):

@@ -11,7 +11,7 @@ from model.planner import Planner, PlanOptions
 from model.problem import Problem
 from model.search.regions.dividing import divide
 from model.search.regions.part import part_of
-from model.search.regions.region import Region, put_back, vehicle_of
+from model.search.regions.region import Region, put_back
 from model.solution import Solution
 from tests.model.street import NO_POLICY
 from tests.model.tiny import (
@@ -117,7 +117,7 @@ def regions_of() -> tuple[Problem, Solution, tuple[Region, ...]]:
 def test_borders_are_others_each_time() -> None:
     problem, plan, _ = regions_of()
     rng = np.random.default_rng(1)
-    drawings = {frozenset(frozenset(map(vehicle_of, region.plan.routes))
+    drawings = {frozenset(frozenset(route.driven_by for route in region.plan.routes)
                           for region in divide(problem, plan, 2, rng)) for _ in range(20)}
     assert len(drawings) > 1
 
