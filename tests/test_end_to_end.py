@@ -2,8 +2,6 @@
 
 import json
 import re
-import subprocess
-import sys
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
@@ -13,7 +11,8 @@ import pytest
 from typer.testing import CliRunner
 
 from app.cli.commands import cli as command_line
-from tests.conftest import PATIENCE, eventually, free_port
+from tests.conftest import PATIENCE
+from tests.console.serving import shared
 
 pytestmark = pytest.mark.slow
 
@@ -22,18 +21,10 @@ EXAMPLES = sorted((ROOT / "examples").glob("*.json"))
 
 
 @pytest.fixture(scope="module")
-def client(tmp_path_factory: pytest.TempPathFactory) -> Iterator[httpx.Client]:
-    port = free_port()
-    path = tmp_path_factory.mktemp("serve") / "log.txt"
-    with path.open("w") as log:
-        process = subprocess.Popen([sys.executable, "-m", "app.cli", "serve", "--port", str(port)],
-                                   stdout=log, stderr=log, cwd=ROOT)
-    with httpx.Client(base_url=f"http://127.0.0.1:{port}", timeout=120, trust_env=False) as http:
-        eventually(lambda: process.poll() is not None or is_ready(http))
-        assert process.poll() is None, path.read_text()
+def client(shared_folder: Path) -> Iterator[httpx.Client]:
+    with (shared(shared_folder / "end-to-end") as address,
+          httpx.Client(base_url=address, timeout=PATIENCE, trust_env=False) as http):
         yield http
-    process.terminate()
-    process.wait(PATIENCE)
 
 
 def shows(told: Any, replied: Any) -> bool:
@@ -55,13 +46,6 @@ def test_readme_shows_what_is_replied_to_its_request(client: httpx.Client) -> No
     assert told is not None
     reply = client.post("/plan", json=json.loads(request[1])).json()
     assert shows(json.loads(told[1]), reply), reply
-
-
-def is_ready(http: httpx.Client) -> bool:
-    try:
-        return http.get("/health/ready").status_code == 200
-    except httpx.TransportError:
-        return False
 
 
 @pytest.mark.parametrize("example", EXAMPLES, ids=lambda path: path.stem)
