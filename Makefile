@@ -12,7 +12,7 @@ INSTALL := $(BIN)/python .ci/install.py
 # On all cores, by `tests/conftest.py`; who is idle takes over what others have left. Threads of PyTorch's own would wait for
 # each other in vain. Tests of the engine find CMake there.
 PYTEST := PATH="$(CURDIR)/$(BIN):$$PATH" OMP_NUM_THREADS=1 $(BIN)/pytest --numprocesses auto --dist worksteal
-# What users don't run; `.ci/run` does.
+# What users don't run; `.ci/run` does, and what is marked `thorough`.
 STUDIES := tests/benchmarks tests/app/test_api_fuzz.py tests/test_contributing.py
 URL := http://$(HOST):$(PORT)
 # Modules are kept compiled whatever the environment says: each start loads hundreds of them.
@@ -42,14 +42,15 @@ plan: .venv/serving engine ## Plan examples/table1.json, write plan.json and che
 	@$(BIN)/tandem check examples/table1.json plan.json
 	@echo "The plan is in plan.json."
 
-test: prepared .venv/testing engine guide ## Install what the tests need and run them
-	$(PYTEST) $(STUDIES:%=--ignore=%)
+test: prepared .venv/testing engine guide ## Install what the tests need and run most of them
+	$(PYTEST) -m "not thorough" $(STUDIES:%=--ignore=%)
 
-test-studies: .venv/testing engine guide ## Run the tests of benchmarks, generated requests, and CONTRIBUTING.md
+test-studies: prepared .venv/testing engine guide ## Run the rest of them: rare views, variants, benchmarks, generated requests
+	$(PYTEST) -m thorough $(STUDIES:%=--ignore=%)
 	$(PYTEST) $(STUDIES)
 
 test-quick: .venv/testing engine guide ## Run many tests in under a minute, without browser, database and services
-	$(PYTEST) -m "not slow"
+	$(PYTEST) -m "not slow and not thorough"
 
 prepared:
 	@.ci/prepare

@@ -80,11 +80,19 @@ def pytest_collection_finish() -> None:
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
     """Mark tests with PostgreSQL as slow, and have the slow ones begin. In place.
 
-    What is quick fills the cores at the end.
+    What is quick fills the cores at the end. Of a test's many cases those after the first few are
+    marked as thorough, where it says so.
     """
+    cases: defaultdict[str, int] = defaultdict(int)
     for item in items:
         if "[postgresql" in item.name:
             item.add_marker(pytest.mark.slow)
+        few = item.get_closest_marker("thorough_after")
+        if few is not None:
+            test = item.nodeid.partition("[")[0]
+            cases[test] += 1
+            if cases[test] > few.args[0]:
+                item.add_marker(pytest.mark.thorough)
     items.sort(key=lambda item: item.get_closest_marker("slow") is None)
 
 

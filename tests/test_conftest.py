@@ -1,5 +1,8 @@
-"""Tests are run again exactly where the machine may be to blame, and none ends others' loops."""
+"""Tests are run again exactly where the machine may be to blame, all by one of two targets, and
+none ends others' loops.
+"""
 
+import re
 from collections.abc import Callable
 from pathlib import Path
 from types import SimpleNamespace
@@ -7,7 +10,11 @@ from typing import Any
 
 import pytest
 
-from tests.conftest import STALL, TRIES, complete, pytest_pyfunc_call
+from tests.conftest import (
+    STALL, TRIES, complete, pytest_collection_modifyitems, pytest_pyfunc_call,
+)
+
+ROOT = Path(__file__).resolve().parents[1]
 
 
 @pytest.fixture
@@ -60,6 +67,40 @@ def test_a_test_that_fails_on_a_quiet_machine_fails_at_once(run: Callable[..., i
 
 def test_other_tests_are_left_to_pytest(run: Callable[..., int]) -> None:
     assert run(0, 0.0, marked=False) == 0
+
+
+class Case:
+    """A case of a test, as far as it is looked at."""
+
+    def __init__(self, nodeid: str, few: int | None) -> None:
+        self.nodeid = self.name = nodeid
+        self.marks: dict[str, Any] = {} if few is None else {
+            "thorough_after": SimpleNamespace(args=(few,))}
+
+    def get_closest_marker(self, name: str) -> Any:
+        return self.marks.get(name)
+
+    def add_marker(self, mark: pytest.MarkDecorator) -> None:
+        self.marks[mark.name] = mark
+
+
+def test_cases_after_the_first_few_are_thorough_where_a_test_says_so() -> None:
+    cases: Any = [*(Case(f"test_a[{number}]", 2) for number in range(4)),
+                  *(Case(f"test_b[{number}]", None) for number in range(4)),
+                  *(Case(f"test_c[{number}]", 1) for number in range(2))]
+    pytest_collection_modifyitems(cases)
+    assert [case.nodeid for case in cases if "thorough" in case.marks] == [
+        "test_a[2]", "test_a[3]", "test_c[1]"]
+
+
+def test_what_make_test_leaves_out_is_run_by_make_test_studies() -> None:
+    recipes = dict(re.findall(r"^(test[a-z-]*):.*\n((?:\t.+\n)+)",
+                              (ROOT / "Makefile").read_text("utf-8"), re.MULTILINE))
+    kept, = recipes["test"].splitlines()
+    marked, studies = recipes["test-studies"].splitlines()
+    assert kept.replace('"not thorough"', "thorough") == marked
+    assert kept.endswith(" $(STUDIES:%=--ignore=%)")
+    assert studies == "\t$(PYTEST) $(STUDIES)"
 
 
 def test_coroutines_are_run_where_no_browser_has_its_loop() -> None:

@@ -113,6 +113,7 @@ def test_documentation_needs_no_other_host(client: httpx.Client) -> None:
     assert "http://" not in page
 
 
+@pytest.mark.thorough_after(3)
 @pytest.mark.parametrize("policy", ["attention", "pointer"])
 @pytest.mark.parametrize("options", [
     {"decoding": "greedy", "time_limit": 0}, {"decoding": "sample", "time_limit": 0},

@@ -126,6 +126,7 @@ def find_all(pattern: re.Pattern[Any], text: str) -> None:
     deque(found, maxlen=0)
 
 
+@pytest.mark.thorough_after(6)
 @pytest.mark.parametrize("name", patterns())
 def test_no_pattern_tries_all_ways_to_split_a_text(name: str) -> None:
     pattern = patterns()[name]
@@ -151,6 +152,7 @@ def test_a_pattern_that_tries_all_splits_is_found(monkeypatch: pytest.MonkeyPatc
     assert slow_texts(re.compile(r"\d+\s*\w?\s*y").fullmatch) == ["8" + " " * 59]
 
 
+@pytest.mark.thorough_after(2)
 @pytest.mark.parametrize("kind", READERS)
 def test_no_cell_takes_long_to_read(kind: str) -> None:
     for text in texts(LONGEST_READ):
@@ -160,6 +162,7 @@ def test_no_cell_takes_long_to_read(kind: str) -> None:
         assert thread_time() - before < MOST_PER_CELL
 
 
+@pytest.mark.thorough_after(2)
 @pytest.mark.parametrize("cell", ["8" + " " * 1000 + "x", "8" + "\t " * 500 + "x",
                                   "1." * 5000 + "x", "8 - " * 1000, "(" * 20_000,
                                   "48.1" + "\u00a0" * 9000 + "N"])

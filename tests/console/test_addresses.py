@@ -11,7 +11,7 @@ from tests.app.maps.addresses.conftest import helsinki  # noqa: F401
 from tests.console.serving import shared
 from tests.console.steps import idle, open_file, open_tab, planned, state
 
-pytestmark = pytest.mark.slow
+pytestmark = [pytest.mark.slow, pytest.mark.thorough]
 
 SHEET = """Name;Address;kg
 Anna;Mikonkatu 18, Helsinki;2

@@ -8,7 +8,7 @@ from playwright.sync_api import Page, expect
 
 from tests.console.steps import EXAMPLES, open_file, open_tab, planned, state
 
-pytestmark = pytest.mark.slow
+pytestmark = [pytest.mark.slow, pytest.mark.thorough]
 
 
 def problem_saved(page: Page) -> Any:

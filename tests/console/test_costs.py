@@ -89,6 +89,7 @@ def test_badges_are_the_numbers_of_the_vehicles(page: Page, service: str) -> Non
     expect(page.locator(".truck-mover span").last).to_have_text("3")
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize(("widths", "scheme", "locale"), [
     ((1440, 1024), "light", "en"), ((1024,), "dark", "de")])
 def test_the_header_is_one_line(open_page: Callable[..., Page], service: str,
@@ -125,6 +126,7 @@ def hold_to_one_line(page: Page, width: int) -> None:
         assert own["x"] + own["width"] <= width
 
 
+@pytest.mark.thorough
 def test_a_narrow_header_has_all_within_its_width(page: Page) -> None:
     open_example(page, "city_day")
     header = page.locator("header.head")

@@ -115,6 +115,7 @@ def test_change_of_the_day_reaches_the_phone(client: httpx.Client, phone: Browse
     expect(page.get_by_role("alert")).to_have_count(0)
 
 
+@pytest.mark.thorough
 def test_flights_of_the_drone_are_saved_by_its_driver(
         client: httpx.Client, phone: BrowserContext) -> None:
     truck, van = dispatched(client)["links"]
@@ -160,6 +161,7 @@ def test_page_shows_all_that_a_driver_needs_to_everyone(
     assert all(address.startswith(str(client.base_url)) for address in asked)
 
 
+@pytest.mark.thorough
 def test_day_is_told_in_the_language_of_the_phone_and_loads_in_their_units(
         client: httpx.Client, browser: Browser) -> None:
     dimensions = [{"name": "weight", "unit": "kg"}]
@@ -189,6 +191,7 @@ def test_day_is_told_in_the_language_of_the_phone_and_loads_in_their_units(
     phone.close()
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("locale", ["en-GB", "de-AT"])
 def test_nothing_moves_under_the_thumb_when_it_is_sent(
         client: httpx.Client, browser: Browser, locale: str) -> None:
@@ -316,6 +319,7 @@ def test_plan_is_sent_out_followed_and_planned_on_from(page: Page) -> None:
     expect(card).to_contain_text("revoked")
 
 
+@pytest.mark.thorough
 def test_orders_of_which_nobody_told_are_asked_for_and_undo_brings_the_plan_back(
         page: Page) -> None:
     start = datetime.now(UTC) - timedelta(hours=2)

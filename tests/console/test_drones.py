@@ -26,6 +26,7 @@ def street(**vehicle: Any) -> str:
         "options": {"time_limit": 60, "search_iterations": 300}})
 
 
+@pytest.mark.thorough_after(1)
 @pytest.mark.parametrize(("drones", "why"), [
     # All lie on the van's way, so that a flight saves nothing of it.
     (DRONES | {"costs": {"per_km": 9}}, "No flight would save: the best, to"),
@@ -44,6 +45,7 @@ def test_van_whose_drone_flies_nothing_says_why(page: Page, drones: dict[str, An
     assert findings(page, ".panel") == []
 
 
+@pytest.mark.thorough
 def test_what_if_has_another_drone(page: Page) -> None:
     open_file(page, "street.json", street())
     planned(page, "3 of 3 served")
@@ -60,6 +62,7 @@ def test_what_if_has_another_drone(page: Page) -> None:
     expect(page.get_by_text("now 1, 2 drones each")).to_be_visible()
 
 
+@pytest.mark.thorough
 def test_failing_to_find_out_is_no_alarm(open_page: Callable[..., Page], service: str) -> None:
     page = open_page(service, allow=("503",))
     page.route("**/explain", lambda route: route.fulfill(
@@ -73,6 +76,7 @@ def test_failing_to_find_out_is_no_alarm(open_page: Callable[..., Page], service
     expect(page.locator(".drones-line")).to_contain_text("No flight would save")
 
 
+@pytest.mark.thorough
 def test_what_drones_do_fits_every_width(page: Page) -> None:
     open_example(page, "berlin")
     line = page.locator(".drones-line")
@@ -85,6 +89,7 @@ def test_what_drones_do_fits_every_width(page: Page) -> None:
         assert findings(page, ".panel") == [], width
 
 
+@pytest.mark.thorough
 def test_sortie_is_drawn_from_the_side(page: Page) -> None:
     open_example(page, "city_day")
     open_tab(page, "routes")

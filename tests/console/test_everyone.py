@@ -39,6 +39,7 @@ def findings(page: Page, part: str | None = None, without: Sequence[str] = (),
     return list(awaited(page, FINDINGS, [part, list(without), impacts]))
 
 
+@pytest.mark.thorough_after(1)
 @pytest.mark.begins_with("city_day")
 @pytest.mark.parametrize("scheme", ["light", "dark"])
 def test_axe_finds_nothing_serious_in_tools_and_dialogs(open_page: Callable[..., Page],

@@ -55,6 +55,7 @@ def test_hubs_drones_and_launch_sites_are_seen(page: Page) -> None:
     assert findings(page, ".panel") == []
 
 
+@pytest.mark.thorough
 def test_drones_of_hubs_that_fly_nothing_are_counted(page: Page) -> None:
     request = hub_and_site()
     request["fleet"][1]["count"] = 3
@@ -73,6 +74,7 @@ def middle(mark: Locator) -> tuple[float, float]:
     return box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
 
 
+@pytest.mark.thorough
 def test_launch_sites_are_drawn_moved_and_erased(page: Page) -> None:
     request = hub_and_site()
     request["launch_sites"].pop()
@@ -100,6 +102,7 @@ def test_launch_sites_are_drawn_moved_and_erased(page: Page) -> None:
     expect(marks).to_have_text(["pier"])
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("way", [by_mouse, by_finger])
 def test_a_launch_site_follows_mouse_or_finger_while_the_map_stays(
         open_page: Callable[..., Page], service: str, way: Callable[[Page], Stroke]) -> None:
@@ -121,6 +124,7 @@ def test_a_launch_site_follows_mouse_or_finger_while_the_map_stays(
     assert state(page, "state.request.launch_sites.1") == hub_and_site()["launch_sites"][1]
 
 
+@pytest.mark.thorough
 def test_launch_sites_and_vehicles_that_fly_have_fields(page: Page) -> None:
     open_file(page, "hub.json", json.dumps(hub_and_site()))
     idle(page)
@@ -148,6 +152,7 @@ def test_launch_sites_and_vehicles_that_fly_have_fields(page: Page) -> None:
     expect(page.locator("#field-fleet-0-truck_waits")).to_be_visible()
 
 
+@pytest.mark.thorough
 def test_customer_served_by_truck_tells_why_no_drone_comes(page: Page) -> None:
     request = hub_and_site()
     request["customers"][1] |= {"demand": [3], "served_by": "either"}

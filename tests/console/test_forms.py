@@ -87,6 +87,7 @@ def test_what_vehicles_avoid_and_sides_of_streets_are_chosen(console: Page) -> N
     assert state(console, "state.request.customers.0.approach") == "curb"
 
 
+@pytest.mark.thorough
 def test_the_focus_goes_through_all_customers(console: Page) -> None:
     open_customers(console)
     open_tab(console, "customers")

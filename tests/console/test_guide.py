@@ -24,6 +24,7 @@ def test_console_leads_to_the_guide_which_can_be_searched(
     assert findings(page) == []
 
 
+@pytest.mark.thorough
 def test_documentation_of_the_api_leads_to_the_guide(
         open_page: Callable[..., Page], service: str) -> None:
     page = open_page(service)

@@ -11,7 +11,7 @@ from tests.console.steps import choose_example, open_file, planned, state
 from tests.console.test_importing import SHEET, dialog, read_anew, use
 from tests.console.test_everyone import findings
 
-pytestmark = pytest.mark.slow
+pytestmark = [pytest.mark.slow, pytest.mark.thorough]
 
 UNKNOWN: dict[str, Any] = {
     "id": "later:1", "kind": "later", "text": "Something that this console doesn't know?",

@@ -47,6 +47,7 @@ def use(page: Page) -> None:
     expect(button).to_have_count(0)
 
 
+@pytest.mark.thorough
 def test_times_are_read_as_they_are_meant_beside_their_cells(page: Page) -> None:
     open_file(page, "today.csv", SHEET)
     shown = dialog(page)
@@ -62,6 +63,7 @@ def test_times_are_read_as_they_are_meant_beside_their_cells(page: Page) -> None
     assert customer["info"] == {"notes": "ring twice"}
 
 
+@pytest.mark.thorough
 def test_an_import_takes_nothing_from_what_was_open(page: Page) -> None:
     open_example(page, "city_day")
     open_file(page, "today.csv", SHEET)
@@ -80,6 +82,7 @@ def test_an_import_takes_nothing_from_what_was_open(page: Page) -> None:
     assert "airspace" not in request
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("zone", ["Europe/Zurich", "America/New_York"])
 def test_trips_costs_and_currency_are_assumed_told_and_changed(
         open_page: Callable[..., Page], service: str, zone: str) -> None:
@@ -142,6 +145,7 @@ def test_a_guess_is_corrected_by_a_choice_and_remembered(page: Page) -> None:
     expect(shown.get_by_label("Meaning of notes")).to_have_value("ignored")
 
 
+@pytest.mark.thorough
 def test_a_list_of_pickups_is_put_right_by_one_choice(page: Page) -> None:
     open_file(page, "today.csv", SHEET)
     dialog(page).get_by_label("Meaning of kg").select_option("pickup")
@@ -159,6 +163,7 @@ B;48.1412;11.5612;4;9:00;8
 """
 
 
+@pytest.mark.thorough
 def test_columns_to_look_at_are_counted_and_settled_one_by_one(page: Page) -> None:
     open_file(page, "today.csv", MARKED)
     shown = dialog(page)
@@ -207,6 +212,7 @@ def test_cells_are_pasted_from_a_sheet(page: Page) -> None:
     planned(page, "2 of 2 served")
 
 
+@pytest.mark.thorough
 def test_drivers_are_told_where_and_whom_to_call(page: Page) -> None:
     open_file(page, "german.csv", makes.GERMAN.encode("cp1252"))
     dialog(page)
@@ -222,6 +228,7 @@ def test_drivers_are_told_where_and_whom_to_call(page: Page) -> None:
     expect(sheet.locator("th", has_text="Drones")).to_have_count(0)
 
 
+@pytest.mark.thorough
 def test_what_drivers_are_told_is_edited_line_by_line(page: Page) -> None:
     open_file(page, "today.csv", SHEET)
     dialog(page)
@@ -249,6 +256,7 @@ def test_a_file_that_is_no_sheet_is_refused_in_words(open_page: Callable[..., Pa
 
 
 # `tests.app.formats.sheets.test_makes` tells how those and many others are read.
+@pytest.mark.thorough_after(1)
 @pytest.mark.parametrize(("name", "content", "served"), [
     ("german.csv", makes.GERMAN.encode("cp1252"), 3), ("tabs.txt", makes.TABS.encode("utf-16"), 3),
     ("rows.csv", makes.SEVERAL_ROWS.encode(), 4), ("merged.xlsx", makes.merged_headings(), 3),
@@ -262,6 +270,7 @@ def test_sheets_of_several_makes_are_planned_in_one_click(console: Page, name: s
         re.compile(f"of {served} served"))
 
 
+@pytest.mark.thorough
 def test_everyone_can_import(page: Page) -> None:
     open_file(page, "today.csv", SHEET.replace("47.39", "47.x"))
     expect(dialog(page).get_by_role("alert")).to_be_visible()

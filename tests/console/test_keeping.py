@@ -110,6 +110,7 @@ def test_crash_and_reload_lose_nothing(alone: Page, service: str) -> None:
     expect(tab.get_by_text("The problem has changed since")).to_have_count(0)
 
 
+@pytest.mark.thorough
 def test_tabs_do_not_overwrite_each_other(page: Page, service: str) -> None:
     open_example(page, SMALL)
     edit(page, "one")
@@ -135,6 +136,7 @@ def test_tabs_do_not_overwrite_each_other(page: Page, service: str) -> None:
     assert first_customer(loaded_anew(tab)) == "four"
 
 
+@pytest.mark.thorough
 def test_tab_that_lost_its_draft_goes_on_with_a_copy(page: Page) -> None:
     open_example(page, SMALL)
     edit(page, "one")
@@ -151,6 +153,7 @@ def test_tab_that_lost_its_draft_goes_on_with_a_copy(page: Page) -> None:
     assert first_customer(loaded_anew(page)) == "two"
 
 
+@pytest.mark.thorough
 def test_what_was_being_planned_is_found_again(page: Page) -> None:
     idle(page)
     let_search(page, 600)
@@ -166,6 +169,7 @@ def test_what_was_being_planned_is_found_again(page: Page) -> None:
     assert state(page, "state.plans.length") == 2
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("where", ["This browser", "The service"])
 def test_change_in_another_tab_is_not_overwritten_unseen(
         open_page: Callable[..., Page], service: str, where: str) -> None:
@@ -200,6 +204,7 @@ def test_change_in_another_tab_is_not_overwritten_unseen(
     expect(page.locator("#save")).to_be_enabled()
 
 
+@pytest.mark.thorough
 def test_saved_plan_stands_beside_the_open_one(page: Page) -> None:
     open_example(page, SMALL)
     save(page, "as it was", "This browser")
@@ -259,6 +264,7 @@ def test_link_opens_a_plan_without_a_key(page: Page, open_page: Callable[..., Pa
     assert first_customer(visitor) == "mine"
 
 
+@pytest.mark.thorough
 def test_browser_that_keeps_nothing_says_so(page: Page) -> None:
     page.add_init_script("Object.defineProperty(window, 'indexedDB', { get() { "
                          "throw new DOMException('no', 'SecurityError'); } });")
@@ -266,6 +272,7 @@ def test_browser_that_keeps_nothing_says_so(page: Page) -> None:
     refused(page, "keeps nothing here")
 
 
+@pytest.mark.thorough
 def test_browser_without_room_says_so(page: Page) -> None:
     idle(page)
     page.evaluate("() => { IDBObjectStore.prototype.put = () => { "
@@ -279,6 +286,7 @@ def test_browser_without_room_says_so(page: Page) -> None:
     refused(page, "has no room left")
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("options", [
     {"color_scheme": "dark"}, {"viewport": {"width": 390, "height": 844}}], ids=["dark", "phone"])
 def test_everyone_can_save(open_page: Callable[..., Page], service: str,

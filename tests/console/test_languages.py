@@ -119,6 +119,7 @@ TABS = ("customers", "fleet", "solve", "routes", "costs", "unassigned", "changes
         "replan", "export", "drivers")
 
 
+@pytest.mark.thorough
 def test_german_pages_have_nothing_english(open_page: Callable[..., Page], service: str) -> None:
     page = open_page(service, locale="de-DE")
     idle(page)
@@ -179,6 +180,7 @@ Cleo;Tal 1;;;;;7;4
 """
 
 
+@pytest.mark.thorough
 def test_import_has_nothing_english_on_german_pages(open_page: Callable[..., Page],
                                                     service: str) -> None:
     page = open_page(service, locale="de-DE")
@@ -192,6 +194,7 @@ def test_import_has_nothing_english_on_german_pages(open_page: Callable[..., Pag
     assert sorted(set(page.evaluate(LEFT_OVERS))) == []
 
 
+@pytest.mark.thorough
 def test_zones_and_wind_have_nothing_english_on_german_pages(
         open_page: Callable[..., Page], service: str) -> None:
     page = open_page(service, locale="de-DE")
@@ -241,6 +244,7 @@ def test_error_is_told_in_words_and_its_path_is_behind_a_click(
     expect(alert.locator("code")).to_have_text("$.fleet[0].speed_kmh")
 
 
+@pytest.mark.thorough
 @pytest.mark.begins_with("city_day")
 @pytest.mark.parametrize(("locale", "widths", "schemes"), [
     ("en-GB", (1440, 390), ("light", "dark")), ("de-DE", (1440, 1024), ("dark", "light"))])

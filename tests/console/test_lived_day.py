@@ -15,7 +15,7 @@ from tests.app.records.days.living import PROBLEM, begun, order, plan_of, standi
 from tests.console.serving import new_context
 from tests.console.test_drivers import PHONE, mark
 
-pytestmark = pytest.mark.slow
+pytestmark = [pytest.mark.slow, pytest.mark.thorough]
 
 SPEED = 60
 TICK = 30.0

@@ -33,6 +33,7 @@ def test_day_is_begun_with_the_plan_and_opened_again(page: Page) -> None:
     assert findings(page, ".panel") == []
 
 
+@pytest.mark.thorough
 def test_what_changes_is_shown_and_orders_in_doubt_are_asked(
         client: httpx.Client, service: str, open_page: Callable[..., Page]) -> None:
     day = begun(client)
@@ -56,6 +57,7 @@ def test_what_changes_is_shown_and_orders_in_doubt_are_asked(
     assert findings(page, ".panel") == []
 
 
+@pytest.mark.thorough
 def test_order_is_placed_by_a_click_on_the_map_and_a_slot(
         client: httpx.Client, service: str, open_page: Callable[..., Page]) -> None:
     day = begun(client, {**PROBLEM, "fleet": [{**PROBLEM["fleet"][0], "shift": {
@@ -109,6 +111,7 @@ def test_what_is_not_told_yet_is_undone_and_told_with_one_click(
     assert {each.id for each in standing(client, day).orders} == set("ABCDEG")
 
 
+@pytest.mark.thorough
 def test_what_is_put_elsewhere_by_hand_is_told_and_kept_until_it_is_let_go(
         client: httpx.Client, service: str, open_page: Callable[..., Page]) -> None:
     day = begun(client, {**PROBLEM, "fleet": [{**PROBLEM["fleet"][0], "capacity": [9]}]})
@@ -136,6 +139,7 @@ def test_what_is_put_elsewhere_by_hand_is_told_and_kept_until_it_is_let_go(
                            if each.id == "A"))
 
 
+@pytest.mark.thorough
 def test_who_is_left_out_by_hand_waits_until_planned_again(
         client: httpx.Client, service: str, open_page: Callable[..., Page]) -> None:
     day = begun(client)
@@ -157,6 +161,7 @@ def test_who_is_left_out_by_hand_waits_until_planned_again(
     assert "A" in served_by(plan_of(client, planned(client, day).id))
 
 
+@pytest.mark.thorough
 def test_day_is_rehearsed_by_a_clock_that_is_stepped(page: Page) -> None:
     open_tab(page, "drivers")
     page.get_by_role("button", name="Rehearse the day").click()
@@ -179,6 +184,7 @@ def given(page: Page, name: str) -> str:
     return other.partition(" ")[0]
 
 
+@pytest.mark.thorough
 def test_wall_shows_the_day_without_a_panel_to_work_in(
         client: httpx.Client, service: str, open_page: Callable[..., Page]) -> None:
     day = begun(client)
@@ -192,6 +198,7 @@ def test_wall_shows_the_day_without_a_panel_to_work_in(
     assert size >= 30
 
 
+@pytest.mark.thorough
 def test_link_to_the_day_shows_it_as_it_goes_on_and_the_list_opens_it(
         client: httpx.Client, service: str, open_page: Callable[..., Page]) -> None:
     day = begun(client)

@@ -74,6 +74,7 @@ BESIDE_DETAILS = """() => {
 """Tells whether no number of a stop lies below what is told of its trip."""
 
 
+@pytest.mark.thorough
 def test_stops_have_numbers_where_there_is_room_and_all_of_whose_is_selected(page: Page) -> None:
     open_example(page, "smallest")
     numbers = page.locator(".stop-mark span")
@@ -85,6 +86,7 @@ def test_stops_have_numbers_where_there_is_room_and_all_of_whose_is_selected(pag
     page.wait_for_function(BESIDE_DETAILS)
 
 
+@pytest.mark.thorough
 def test_timeline_is_no_higher_than_its_rows(page: Page) -> None:
     open_example(page, "smallest")
     few = page.locator(".timeline").bounding_box()
@@ -158,6 +160,7 @@ def test_flights_are_drawn_as_they_are_measured(console: Page) -> None:
     assert measured > 16_500
 
 
+@pytest.mark.thorough
 def test_windows_and_lateness_of_a_city_are_on_the_timeline(console: Page) -> None:
     open_example(console, "city_day")
     windows = console.evaluate("""async () => {
@@ -171,6 +174,7 @@ def test_windows_and_lateness_of_a_city_are_on_the_timeline(console: Page) -> No
     assert windows == len(served_with_window)
 
 
+@pytest.mark.thorough
 def test_problem_of_matrices_alone_is_planned_without_a_map(
         open_page: Callable[..., Page], service: str) -> None:
     page = open_page(service)
@@ -203,6 +207,7 @@ STRENGTH = """async (key) => {
 """Selects a stop and returns how opaque its middle is."""
 
 
+@pytest.mark.thorough
 def test_the_stop_that_is_selected_does_not_step_back_with_other_trips(
         open_page: Callable[..., Page], service: str) -> None:
     page = open_page(service, allow=("willReadFrequently",))

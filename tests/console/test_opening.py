@@ -41,6 +41,7 @@ def test_first_view_is_a_city_and_says_what_its_drones_do(
     context.close()
 
 
+@pytest.mark.thorough
 def test_address_names_an_example(browser: Browser, service: str) -> None:
     for name, served in (("smallest", "2 of 2 served"), ("constructor", "40 of 40 served")):
         context = new_context(browser)
@@ -84,6 +85,7 @@ def test_what_the_first_plan_waits_for_is_asked_by_the_page_and_once(
     assert "texts/en.js" not in dict(asked)
 
 
+@pytest.mark.thorough
 def test_who_comes_again_has_the_files_at_hand(page: Page, service: str) -> None:
     page.goto(f"{service}/?again")
     expect(page.locator("#total-cost")).to_be_visible()
@@ -113,6 +115,7 @@ def test_first_plan_is_drawn_within_a_second_of_the_click(console: Page) -> None
     assert awaited(console, "() => window.drawn") / 1000 < MAX_FIRST_PLAN_SECONDS
 
 
+@pytest.mark.thorough
 def test_every_example_opens(console: Page, service: str) -> None:
     for name in json.loads(console.request.get(f"{service}/openapi.json").text())["paths"]["/plan"][
             "post"]["requestBody"]["content"]["application/json"]["examples"]:
@@ -121,6 +124,7 @@ def test_every_example_opens(console: Page, service: str) -> None:
         expect(console.locator(".result-line")).to_contain_text(f"of {len(customers)} served")
 
 
+@pytest.mark.thorough
 def test_what_drones_save_is_asked_by_a_click_elsewhere(console: Page) -> None:
     open_example(console, "drones")
     line = console.locator(".drones-line")
@@ -131,6 +135,7 @@ def test_what_drones_save_is_asked_by_a_click_elsewhere(console: Page) -> None:
     expect(line).to_have_count(0)
 
 
+@pytest.mark.thorough
 def test_tiles_are_drawn_if_an_address_is_set(open_page: Callable[..., Page],
                                               service: str) -> None:
     page = open_page(service)
@@ -145,6 +150,7 @@ def test_tiles_are_drawn_if_an_address_is_set(open_page: Callable[..., Page],
     expect(page.get_by_text("the <b>map</b> makers")).to_be_visible()
 
 
+@pytest.mark.thorough
 def test_starting_service_is_waited_for(open_page: Callable[..., Page], service: str) -> None:
     page = open_page(service, allow=("503",))
     page.route("**/health/ready", lambda route: route.fulfill(

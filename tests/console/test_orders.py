@@ -44,6 +44,7 @@ def type_order(page: Page, **texts: str) -> None:
     page.locator("#order-place").press("Enter")
 
 
+@pytest.mark.thorough
 def test_an_order_that_could_not_be_priced_is_still_typed(
         open_page: Callable[..., Page], service: str) -> None:
     page = open_page(service, allow=("503",))
@@ -56,6 +57,7 @@ def test_an_order_that_could_not_be_priced_is_still_typed(
     expect(page.locator("#order-name")).to_have_value("Late")
 
 
+@pytest.mark.thorough
 def test_places_of_an_order_belong_to_the_plan_that_they_were_asked_for(
         open_page: Callable[..., Page], service: str) -> None:
     page = open_page(service)
@@ -70,6 +72,7 @@ def test_places_of_an_order_belong_to_the_plan_that_they_were_asked_for(
     assert len(state(page, "state.plans")) == 2
 
 
+@pytest.mark.thorough_after(1)
 @pytest.mark.parametrize("widths", [(1024, 1440), (390,)])
 def test_an_order_is_priced_taken_and_sent_in_three_clicks(
         open_page: Callable[..., Page], service: str, widths: tuple[int, ...]) -> None:
@@ -106,6 +109,7 @@ def test_an_order_is_priced_taken_and_sent_in_three_clicks(
     assert clicks.count + 1 == 3
 
 
+@pytest.mark.thorough
 def test_a_van_that_is_back_goes_out_again_for_an_order(page: Page) -> None:
     open_file(page, "day.json", json.dumps(ONE_VAN))
     planned(page, "1 of 1 served")
@@ -124,6 +128,7 @@ def test_a_van_that_is_back_goes_out_again_for_an_order(page: Page) -> None:
     assert "max_trips" not in state(page, "state.request.fleet.0")
 
 
+@pytest.mark.thorough
 def test_who_is_left_out_beside_a_van_that_is_back_is_served_by_a_click(page: Page) -> None:
     open_file(page, "day.json", json.dumps(ONE_VAN))
     planned(page, "1 of 1 served")
@@ -146,6 +151,7 @@ def test_who_is_left_out_beside_a_van_that_is_back_is_served_by_a_click(page: Pa
     assert trips[1]["stops"][0]["departure"] >= BACK
 
 
+@pytest.mark.thorough
 @pytest.mark.begins_with("table1")
 def test_what_can_not_be_read_is_said_at_its_field(page: Page) -> None:
     idle(page)
@@ -160,6 +166,7 @@ def test_what_can_not_be_read_is_said_at_its_field(page: Page) -> None:
     expect(page.locator(".order-field.invalid")).to_have_count(0)
 
 
+@pytest.mark.thorough
 @pytest.mark.begins_with("table1")
 def test_the_place_of_an_order_is_shown_on_the_map(page: Page) -> None:
     idle(page)
@@ -201,6 +208,7 @@ def test_orders_of_a_list_are_cancelled_together(page: Page) -> None:
     assert findings(page, ".panel") == []
 
 
+@pytest.mark.thorough
 def test_who_is_being_served_is_not_cancelled(page: Page) -> None:
     begin(page)
     page.get_by_role("button", name="Cancel orders on the map").click()
@@ -218,6 +226,7 @@ def test_who_is_being_served_is_not_cancelled(page: Page) -> None:
     expect(page.get_by_text("4 of 4 served")).to_be_visible()
 
 
+@pytest.mark.thorough
 def test_who_was_erased_before_the_day_goes_on_is_back_if_he_is_served(page: Page) -> None:
     open_file(page, "day.json", json.dumps(PROBLEM))
     planned(page, "6 of 6 served")
@@ -232,6 +241,7 @@ def test_who_was_erased_before_the_day_goes_on_is_back_if_he_is_served(page: Pag
     expect(page.get_by_text("5 of 5 served")).to_be_visible()
 
 
+@pytest.mark.thorough
 def test_now_is_the_present_time_for_a_plan_of_today(
         open_page: Callable[..., Page], service: str) -> None:
     page = open_page(service, timezone_id="Europe/Berlin")  # else all later pages have the clock

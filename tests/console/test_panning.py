@@ -16,7 +16,7 @@ from tests.console.test_hands import bar_of, hands, told, tours
 from tests.console.test_speed import large_problem
 from tests.seeds import often
 
-pytestmark = pytest.mark.slow
+pytestmark = [pytest.mark.slow, pytest.mark.thorough]
 
 __all__ = ["hands"]
 

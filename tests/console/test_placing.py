@@ -9,7 +9,7 @@ from tests.console.steps import open_file, planned, state
 from tests.console.test_importing import SHEET, dialog, read_anew, use
 from tests.console.test_everyone import findings
 
-pytestmark = [pytest.mark.slow, pytest.mark.one_page]
+pytestmark = [pytest.mark.slow, pytest.mark.one_page, pytest.mark.thorough]
 
 ADDRESSES = """Name,Street,Zip,Town,kg
 Anna,Ring 1,10000,Adorf,5

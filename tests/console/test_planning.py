@@ -62,6 +62,7 @@ NOTED = """() => {
 """Notes how long is planned whenever that is told: on a busy machine planning ends unseen."""
 
 
+@pytest.mark.thorough
 def test_a_limit_that_fits_the_size_is_chosen_and_told(page: Page) -> None:
     idle(page)
     page.evaluate(NOTED)
@@ -97,6 +98,7 @@ def crowd(count: int) -> dict[str, Any]:
             "fleet": [{"id": "truck", "count": count // 20, "capacity": [30]}]}
 
 
+@pytest.mark.thorough
 def test_policy_and_decoding_are_chosen(page: Page) -> None:
     idle(page)
     open_tab(page, "solve")
@@ -120,6 +122,7 @@ def test_lost_connection_is_told_in_words(open_page: Callable[..., Page], servic
     expect(page.get_by_role("alert")).to_contain_text("The service does not answer.")
 
 
+@pytest.mark.thorough
 def test_stream_that_breaks_is_taken_up_again(open_page: Callable[..., Page],
                                               service: str) -> None:
     page = open_page(service, allow=("ERR_FAILED", "Failed to load"))

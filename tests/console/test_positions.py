@@ -14,7 +14,7 @@ from tests.console.test_drivers import PHONE
 from tests.console.test_everyone import findings
 from tests.console.test_lived_day import link_of_driver
 
-pytestmark = pytest.mark.slow
+pytestmark = [pytest.mark.slow, pytest.mark.thorough]
 
 
 @pytest.fixture

@@ -65,6 +65,7 @@ def test_customers_and_windows_are_drawn_and_erased(page: Page) -> None:
     planned(page, "of 5 served")
 
 
+@pytest.mark.thorough
 def test_areas_are_drawn_and_erased(page: Page) -> None:
     tools, (x, y) = drawing(page)
     tools.get_by_role("button", name="No-fly area").click()
@@ -79,6 +80,7 @@ def test_areas_are_drawn_and_erased(page: Page) -> None:
     assert state(page, "state.request.airspace.no_fly") == []
 
 
+@pytest.mark.thorough
 def test_marks_and_lines_take_no_click_of_who_draws_on_the_ground(page: Page) -> None:
     tools, _ = drawing(page)
     customers = [customer["id"] for customer in state(page, "state.request.customers")]
@@ -107,6 +109,7 @@ def test_marks_and_lines_take_no_click_of_who_draws_on_the_ground(page: Page) ->
     assert state(page, "state.selection") is not None
 
 
+@pytest.mark.thorough
 def test_legend_takes_no_click_of_who_draws_on_the_ground(page: Page) -> None:
     tools, _ = drawing(page)
     tools.get_by_role("button", name="No-fly area").click()
@@ -121,6 +124,7 @@ def test_legend_takes_no_click_of_who_draws_on_the_ground(page: Page) -> None:
     assert state(page, "state.request.airspace.no_fly.0.length") == len(ring)
 
 
+@pytest.mark.thorough
 def test_corner_of_an_area_is_dragged(page: Page) -> None:
     open_example(page, "city_day")
     before = state(page, "state.request.airspace.no_fly.0")
@@ -137,6 +141,7 @@ def test_corner_of_an_area_is_dragged(page: Page) -> None:
     assert [old != new for old, new in zip(before, after, strict=True)].count(True) == 1
 
 
+@pytest.mark.thorough
 def test_customers_in_an_area_get_a_window(page: Page) -> None:
     tools, (x, y) = drawing(page)
     tools.get_by_role("button", name="Windows in an area").click()

@@ -48,6 +48,7 @@ def sign(page: Page) -> None:
     page.mouse.up()
 
 
+@pytest.mark.thorough
 def test_proof_taken_without_network_comes_to_the_dispatcher(
         client: httpx.Client, phone: BrowserContext, page: Page) -> None:
     sent = dispatched(client)

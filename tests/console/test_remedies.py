@@ -116,6 +116,7 @@ def test_another_trip_is_applied_and_serves_the_customer(console: Page) -> None:
     assert unassigned == []
 
 
+@pytest.mark.thorough_after(6)
 @pytest.mark.parametrize("words", PROBLEMS)
 def test_remedy_is_applied_and_serves_the_customer(console: Page, words: str) -> None:
     text, said, unassigned = awaited(console, APPLY, [PROBLEMS[words], 0])

@@ -97,6 +97,7 @@ def test_orders_come_in_and_are_cancelled_while_trucks_are_under_way(page: Page)
     expect(page.locator("#replan-verdict")).to_contain_text("beside \u201ccustomer-7 added")
 
 
+@pytest.mark.thorough
 def test_driver_sheet_marks_what_is_settled(page: Page) -> None:
     begin(page)
     served = customers_of(plan_on(page))
@@ -139,6 +140,7 @@ def test_others_serve_whom_a_broken_truck_had_not_reached(page: Page) -> None:
     expect(outcome.locator("li").filter(has_text="E1:")).to_contain_text("0:05")
 
 
+@pytest.mark.thorough
 def test_lost_drone_is_launched_no_more(page: Page) -> None:
     drones = {"count": 1, "capacity": [1], "speed_kmh": 60, "endurance": 1800}
     later = {"served_by": "drone", "time_window": {"earliest": 3000, "latest": 9000}}
@@ -159,6 +161,7 @@ def test_lost_drone_is_launched_no_more(page: Page) -> None:
     expect(page.locator("#replan-outcome")).to_contain_text(f"{flight} is launched no more")
 
 
+@pytest.mark.thorough
 def test_what_can_not_be_replanned_is_said_where_it_belongs(
         open_page: Callable[..., Page], service: str) -> None:
     page = open_page(service, allow=("422",))
@@ -226,6 +229,7 @@ def test_plan_is_improved_and_replanned_by_keyboard(page: Page) -> None:
     assert "replan" not in state(page, "state.request")
 
 
+@pytest.mark.thorough
 def test_replanning_fits_a_phone(open_page: Callable[..., Page], service: str) -> None:
     page = open_page(service, viewport={"width": 390, "height": 844}, has_touch=True)
     idle(page)

@@ -10,7 +10,7 @@ from playwright.sync_api import Page, expect
 
 from tests.console.steps import EXAMPLES, idle, open_file, open_tab, planned, state
 
-pytestmark = [pytest.mark.slow, pytest.mark.one_page]
+pytestmark = [pytest.mark.slow, pytest.mark.one_page, pytest.mark.thorough]
 
 TABLET = {"width": 1024, "height": 768}
 PHONE = {"width": 390, "height": 844}

@@ -10,7 +10,7 @@ from playwright.sync_api import Locator, Page, expect
 from tests.console.steps import open_file, open_tab, planned, show_rules, state
 from tests.console.test_everyone import findings
 
-pytestmark = [pytest.mark.slow, pytest.mark.one_page]
+pytestmark = [pytest.mark.slow, pytest.mark.one_page, pytest.mark.thorough]
 
 PLACES = {"A": [6, 1], "B": [5, -2], "C": [-4, 3], "D": [-5, -1], "E": [0, 6]}
 

@@ -60,6 +60,7 @@ def test_shipments_are_seen_and_told_of(page: Page) -> None:
     assert findings(page, ".panel") == []
 
 
+@pytest.mark.thorough
 def test_a_shipment_is_added_and_what_is_wrong_is_said_at_its_field(
         open_page: Callable[..., Page], service: str) -> None:
     page = open_page(service, allow=("422",))
@@ -80,6 +81,7 @@ def test_a_shipment_is_added_and_what_is_wrong_is_said_at_its_field(
     assert findings(page, ".panel") == []
 
 
+@pytest.mark.thorough
 def test_a_sheet_of_pickups_and_deliveries_is_planned(console: Page) -> None:
     open_file(console, "transport.csv", (
         "Order,Pickup lat,Pickup lon,Delivery lat,Delivery lon,Qty\n"
@@ -93,6 +95,7 @@ def test_a_sheet_of_pickups_and_deliveries_is_planned(console: Page) -> None:
     assert state(console, "state.request.shipments.1.id") == "A2"
 
 
+@pytest.mark.thorough
 def test_several_pickups_are_seen_and_added(page: Page) -> None:
     [parcel, _] = REQUEST["shipments"]
     parts = [{"id": "farm", "location": [3, 0], "amount": [1]},

@@ -9,7 +9,7 @@ from playwright.sync_api import Page, expect
 
 from tests.console.steps import idle, open_file, planned, state, stop_button
 
-pytestmark = [pytest.mark.slow, pytest.mark.begins_with("table1")]
+pytestmark = [pytest.mark.slow, pytest.mark.begins_with("table1"), pytest.mark.thorough]
 
 MIN_FRAMES_PER_SECOND = 30
 """Where the machine draws twice as many of a hundred customers; else half of those."""

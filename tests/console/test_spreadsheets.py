@@ -38,6 +38,7 @@ def test_kinds_that_leave_nothing_open_are_planned_as_meant_without_a_question(
         assert client.post("/plan", json=request).json()["unassigned"] == []
 
 
+@pytest.mark.thorough_after(1)
 @pytest.mark.parametrize("sheet", CLICKED, ids=lambda sheet: sheet.name)
 def test_a_kind_of_spreadsheet_is_planned_as_meant(console: Page, sheet: Spreadsheet) -> None:
     console.evaluate("localStorage.clear()")
@@ -61,6 +62,7 @@ def test_a_kind_of_spreadsheet_is_planned_as_meant(console: Page, sheet: Spreads
     assert console.evaluate("window.clicks") <= MOST_CLICKS
 
 
+@pytest.mark.thorough
 def test_all_that_a_workbook_leaves_open_is_answered_and_remembered(page: Page) -> None:
     head = (*HEAD, "Status", "Zauber")
     more = (("offen", "rot"), ("storniert", "blau"), ("offen", "gelb"))
@@ -92,6 +94,7 @@ def test_all_that_a_workbook_leaves_open_is_answered_and_remembered(page: Page) 
     expect(shown.get_by_text("3 customers of")).to_be_visible()
 
 
+@pytest.mark.thorough
 def test_dozens_of_unused_columns_are_greyed_and_stay_within_the_table(console: Page) -> None:
     console.evaluate("localStorage.clear()")
     more = [f"Feld {number}" for number in range(30)]

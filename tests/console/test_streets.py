@@ -18,7 +18,7 @@ from tests.console.conftest import opening
 from tests.console.serving import shared
 from tests.console.steps import awaited, idle, open_file, place_of, planned, state
 
-pytestmark = pytest.mark.slow
+pytestmark = [pytest.mark.slow, pytest.mark.thorough]
 
 HUB = [24.9497, 60.1787]
 PLACES = {"station": [24.9425, 60.1704], "market": [24.9480, 60.1679], "park": [24.9437, 60.1664],

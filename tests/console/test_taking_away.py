@@ -48,6 +48,7 @@ def test_stops_are_saved_as_csv(console: Page) -> None:
     assert next(row for row in rows if row["id"] == "C")["drone"].startswith("truck-")
 
 
+@pytest.mark.thorough
 def test_map_is_saved_as_geojson_and_gpx(console: Page) -> None:
     page = opened(console, "city_day")
     features = json.loads(saved(page, "GeoJSON"))["features"]
@@ -65,6 +66,7 @@ def test_gpx_is_for_degrees_alone(console: Page) -> None:
     expect(page.get_by_text("GPX needs longitudes and latitudes")).to_be_visible()
 
 
+@pytest.mark.thorough
 def test_picture_is_saved_as_svg_and_png(console: Page) -> None:
     page = opened(console, "city_day")
     picture = ElementTree.fromstring(saved(page, "SVG"))
@@ -89,6 +91,7 @@ def test_flights_are_saved_for_flight_controllers(console: Page) -> None:
     expect(part.get_by_role("alert")).to_have_count(0)
 
 
+@pytest.mark.thorough
 def test_flights_that_a_format_cannot_tell_are_refused_in_words(
         open_page: Callable[..., Page], service: str) -> None:
     page = open_page(service, allow=("422",))

@@ -57,6 +57,7 @@ def a_kept_plan(page: Page) -> str:
     return "mine"
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("opened", [a_sheet, a_file, an_example, a_kept_plan])
 def test_undo_never_crosses_the_opening_of_something_else(
         page: Page, opened: Callable[[Page], str]) -> None:
@@ -92,6 +93,7 @@ def test_undone_edits_are_made_again_also_after_a_reload(page: Page) -> None:
     assert first_customer(page) == "three"
 
 
+@pytest.mark.thorough
 def test_single_keys_are_put_off_and_stay_so(page: Page) -> None:
     idle(page)
     edit(page, "edited")

@@ -44,6 +44,7 @@ def test_vehicle_fewer_and_a_window_are_one_click_each(page: Page) -> None:
     expect(page.locator("#differences h3")).to_have_text("B earlier, beside one truck fewer")
 
 
+@pytest.mark.thorough
 def test_fleets_are_compared(page: Page) -> None:
     open_example(page, "hetero_day")
     open_tab(page, "scenarios")
@@ -61,6 +62,7 @@ def test_fleets_are_compared(page: Page) -> None:
     expect(page.locator("#differences")).to_be_visible()
 
 
+@pytest.mark.thorough
 def test_hours_and_capacity_are_swept_into_a_heat_map(page: Page) -> None:
     open_example(page, "hetero_day")
     open_tab(page, "scenarios")

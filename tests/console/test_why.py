@@ -45,6 +45,7 @@ def test_customer_left_out_has_prices_beside_its_reasons(console: Page) -> None:
     expect(card).to_contain_text("fits if capacity", ignore_case=True)
 
 
+@pytest.mark.thorough
 def test_drones_are_compared_with_trucks_alone_and_useless_sorties_marked(console: Page) -> None:
     request = json.loads((EXAMPLES / "explain.json").read_text("utf-8"))["problem"]
     # Whoever flies to C pays more than the truck that would drive there.
@@ -59,6 +60,7 @@ def test_drones_are_compared_with_trucks_alone_and_useless_sorties_marked(consol
     expect(section).to_contain_text("Trucks alone would leave out more customers")
 
 
+@pytest.mark.thorough
 def test_sortie_that_saves_nothing_is_listed_and_marked(page: Page) -> None:
     open_example(page, "drones")
     routes = state(page, "state.plans.0.plan.routes")

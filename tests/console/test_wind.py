@@ -9,7 +9,7 @@ from playwright.sync_api import Page, expect
 from tests.console.steps import EXAMPLES, open_file, open_tab, planned, state
 from tests.console.test_everyone import findings
 
-pytestmark = [pytest.mark.slow, pytest.mark.one_page]
+pytestmark = [pytest.mark.slow, pytest.mark.one_page, pytest.mark.thorough]
 
 HOURS = 12
 

@@ -16,7 +16,7 @@ from tests.console.steps import (
 )
 from tests.console.test_everyone import findings
 
-pytestmark = [pytest.mark.slow, pytest.mark.one_page]
+pytestmark = [pytest.mark.slow, pytest.mark.one_page, pytest.mark.thorough]
 
 NUM_ZONES = 400
 HUB = [25.0, 62.0]

@@ -6,7 +6,7 @@ import pytest
 
 from tests.engine.rules.asking import built
 
-pytestmark = pytest.mark.slow
+pytestmark = [pytest.mark.slow, pytest.mark.thorough]
 
 
 def test_cases_of_the_engine_pass() -> None:

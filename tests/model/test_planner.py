@@ -142,6 +142,7 @@ def test_progress_is_told_and_never_rises(planner: Planner, threads: int) -> Non
     assert result.final_cost <= costs[-1] * (1 + 1e-9)
 
 
+@pytest.mark.thorough_after(2)
 @pytest.mark.parametrize("threads", [1, 2])
 @pytest.mark.parametrize("variant", ["vrptw", "mixed"])
 def test_same_seed_iterations_and_threads_give_the_same_plan(

@@ -24,7 +24,9 @@ pytestmark = pytest.mark.slow
 STEP_INPUTS = ("here", "candidate", "feature", "allowed", "glob", "hidden")
 
 
-@pytest.fixture(scope="module", params=POLICIES)
+@pytest.fixture(scope="module", params=[
+    pytest.param(name, marks=() if name == "attention" else pytest.mark.thorough)
+    for name in POLICIES])
 def exported(request: pytest.FixtureRequest, shared_folder: Path) -> tuple[str, Path]:
     torch.manual_seed(2)
     folder = shared_folder / f"exported-{request.param}"

@@ -105,6 +105,7 @@ def servable(problem: Problem) -> list[bool]:
             for node in range(problem.num_depots, problem.num_nodes)]
 
 
+@pytest.mark.thorough_after(12)
 @pytest.mark.parametrize("num_customers", [1, 6, 40])
 @pytest.mark.parametrize("variant", ALL)
 def test_each_customer_can_be_served_alone(variant: str, num_customers: int) -> None:

@@ -107,6 +107,7 @@ def test_choices_cost_what_they_come_to(actor: Actor) -> None:
     assert judged > 2 * len(plan.trials) > 10
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("variant", ["hetero", "drone"])
 def test_types_to_open_and_flights_are_tried_too(actor: Actor, variant: str) -> None:
     trials = [trial for seed in range(4)
@@ -188,6 +189,7 @@ def test_damaged_file_is_passed_over(labelled: Labelled, tmp_path: Path) -> None
     assert len(buffer.plans) + len(buffer.held_out) == 1
 
 
+@pytest.mark.thorough
 def test_maker_goes_on_behind_what_is_there(tmp_path: Path) -> None:
     for _ in range(2):
         main(tmp_path, minutes=5.0, effort=0.1, max_plans=2)

@@ -119,6 +119,7 @@ def test_size_of_chunks_does_not_change_the_gradient(policy: AnyPolicy, batch: B
     assert any(bool(gradient.abs().max() > 1e-4) for gradient in parted.values())
 
 
+@pytest.mark.thorough_after(1)
 def test_a_part_of_the_decisions_estimates_the_gradient(policy: AnyPolicy) -> None:
     rng = np.random.default_rng(3)
     batch = make_batch([generate(rng, 7, name) for name in ("vrptw", "drone")], ["vrptw", "drone"])

@@ -101,6 +101,7 @@ def test_another_policys_weights_are_refused(tmp_path: Path) -> None:
         train(TrainingLeg(tmp_path, TINY, max_steps=0, validation_size=8, begin_with=EXPORTED))
 
 
+@pytest.mark.thorough
 def test_several_processes_train_one_policy(tmp_path: Path) -> None:
     command = [sys.executable, "-m", "torch.distributed.run", "--nproc-per-node=2",
                "--rdzv-backend=c10d", "--rdzv-endpoint=127.0.0.1:0", "-m", "training.train",
@@ -127,6 +128,7 @@ def test_processes_part_whatever_ends_training(monkeypatch: pytest.MonkeyPatch) 
     assert not dist.is_initialized()
 
 
+@pytest.mark.thorough
 def test_terminated_run_saves_what_it_has(tmp_path: Path) -> None:
     command = [sys.executable, "-m", "training.train", "--folder", str(tmp_path),
                "--sizes", "0", "6", "--num-problems", "4", "--num-rollouts", "3", "--minutes", "5"]

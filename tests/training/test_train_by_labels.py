@@ -37,6 +37,7 @@ def plans_of(labels: Path) -> list[Labelled]:
     return read(labels / "001-00000.npz")
 
 
+@pytest.mark.thorough
 def test_pairs_come_into_the_right_order(labels: Path) -> None:
     plans = plans_of(labels)
     policy, old = read_policy(EXPORTED / WEIGHTS), read_policy(EXPORTED / WEIGHTS)
@@ -54,6 +55,7 @@ def test_pairs_come_into_the_right_order(labels: Path) -> None:
     assert right_order(policy, plans)[0] > before + 0.3
 
 
+@pytest.mark.thorough
 def test_cheapest_choices_come_to_be_preferred() -> None:
     actor = Actor(EXPORTED / WEIGHTS)
     plans = [label_by_trials(actor, Origin("vrptw", 14, seed), 0.3) for seed in range(5)]
@@ -92,6 +94,7 @@ def test_old_policy_is_at_no_distance_from_itself(labels: Path) -> None:
     assert torch.isfinite(logits[lesson.inputs[3]]).all()
 
 
+@pytest.mark.thorough
 def test_resumed_run_equals_an_uninterrupted_one(labels: Path, tmp_path: Path) -> None:
     for folder, stops in (("whole", (4,)), ("parted", (2, 4))):
         for steps in stops:

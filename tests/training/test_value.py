@@ -14,7 +14,7 @@ from training.labels import Actor, Labelled, Origin, label, read_policy, write
 from training.rollout import make_batch
 from training.value import Value, bands, errors, look, train
 
-pytestmark = pytest.mark.slow
+pytestmark = [pytest.mark.slow, pytest.mark.thorough]
 
 EXPORTED = Path(__file__).parents[2] / "model" / "weights" / "attention"
 

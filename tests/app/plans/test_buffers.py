@@ -81,6 +81,7 @@ def nearest(line: Any, area: Data) -> float:
     return -1.0 if inside else float(shapely.distance(shape, planar).min())
 
 
+@pytest.mark.thorough_after(6)
 @pytest.mark.parametrize("buffer", [0, 1, 30, 250])
 @pytest.mark.parametrize("way", WAYS)
 def test_no_exported_flight_comes_nearer_than_the_buffer(client: httpx.Client, way: str,

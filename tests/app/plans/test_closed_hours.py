@@ -174,6 +174,7 @@ def test_the_zone_that_a_flight_leads_to_is_no_fence_of_it(client: httpx.Client)
                    "/flights") == [("UNKNOWN_VALUE", "$.per")]
 
 
+@pytest.mark.thorough
 @pytest.mark.slow
 def test_random_flights_meet_no_zone_in_its_hours(client: httpx.Client) -> None:
     """Zones of all hours, some of which hold depot and customers, judged by what was published."""

@@ -151,6 +151,7 @@ def judged(seed: int) -> tuple[int, int]:
     return len(lines), len(plan["unassigned"])
 
 
+@pytest.mark.thorough
 def test_nobody_flies_through_a_zone() -> None:
     found = [judged(seed) for seed in seeds(40)]
     flights, left_out = (sum(numbers) for numbers in zip(*found, strict=True))

@@ -54,6 +54,7 @@ def test_launch_sites_are_for_some_vehicles_at_some_time(
     assert [left_out["id"] for left_out in planned(service, far_off)["unassigned"]] == ["isle"]
 
 
+@pytest.mark.thorough
 def test_crowds_who_stay_out_leave_the_service_as_it_was(service: httpx.Client) -> None:
     """Two hundred for six places, each of whom might be flown to from a launch site."""
     crowd = {"coordinate_system": "planar", "depots": [{"id": "d", "location": [0, 0]}],

@@ -66,6 +66,7 @@ def quoted(body: bytes, plans: quoted_plans.QuotedPlans | None = None) -> Reques
         return {"errors": [each.model_dump() for each in error.errors]}
 
 
+@pytest.mark.thorough_after(4)
 @pytest.mark.parametrize("now", [None, 0, 700])
 @pytest.mark.parametrize("seed", seeds(12))
 def test_plan_that_is_known_is_quoted_as_one_that_is_read(
@@ -151,6 +152,7 @@ FLOWN = {"drones": DRONES}
 PAUSED = {"breaks": [{"id": "L", "duration": 300, "start": {"earliest": 600, "latest": 1800}}]}
 
 
+@pytest.mark.thorough_after(2)
 @pytest.mark.parametrize("rules", [FLOWN, PAUSED])
 @pytest.mark.parametrize("seed", seeds(8))
 def test_room_is_made_where_drones_fly_and_drivers_rest(

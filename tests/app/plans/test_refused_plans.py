@@ -63,6 +63,7 @@ def test_what_is_refused_is_replaced_told_and_counted(smallest: dict[str, Any]) 
         assert (again.status_code, again.json()["status"]) == (200, "complete")
 
 
+@pytest.mark.thorough
 def test_nothing_is_told_where_nothing_is_refused(smallest: dict[str, Any]) -> None:
     smallest["options"] = {"time_limit": 0.1}
     with serving(None, Settings()) as client:

@@ -33,6 +33,7 @@ RESTING: dict[str, Request] = {
     "rest": {"driving_rules": {"max_driving": 80, "break_duration": 60}}}
 
 
+@pytest.mark.thorough_after(6)
 @pytest.mark.parametrize("kind", RESTING)
 @pytest.mark.parametrize("way", [30, 60, 90])  # seconds to b, and home 60
 @pytest.mark.parametrize(("rested", "is_taken"), [(-10, False), (0, True), (20, True), (120, True)])

@@ -58,6 +58,7 @@ def _converting(number: int) -> Callable[[], object]:
     return lambda: to_problem(request)
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("work", [_reading, _refusing, _warning, _converting])
 def test_four_times_the_customers_are_four_times_the_work(
         work: Callable[[int], Callable[[], object]]) -> None:

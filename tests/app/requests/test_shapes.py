@@ -22,6 +22,7 @@ def request_of(plan: dict[str, Any]) -> bytes:
         "replan": {"plan": {"routes": [], "unassigned": []} | plan}}).encode()
 
 
+@pytest.mark.thorough_after(3)
 @pytest.mark.parametrize("part", PARTS)
 @pytest.mark.parametrize("entries", [MAX_DETAILS + 1, 300_000])
 def test_parts_of_a_plan_that_are_not_read_hold_few_entries(part: str, entries: int) -> None:

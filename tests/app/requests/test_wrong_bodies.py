@@ -44,6 +44,7 @@ MODELS: tuple[type[BaseModel], ...] = (
 Data = dict[str, Any]
 
 
+@pytest.mark.thorough
 def test_refused_bodies_take_a_bounded_multiple_of_their_length_and_little_time() -> None:
     # In a process of its own, whose memory nothing else has grown.
     told = subprocess.run([sys.executable, "-m", "tests.app.requests.wrong_bodies"],
@@ -93,6 +94,7 @@ def _changes(value: Any, path: tuple[str | int, ...] = ()) -> Iterator[tuple[str
         yield from _changes(inner, (*path, key))
 
 
+@pytest.mark.thorough_after(3)
 @pytest.mark.parametrize("wrong", [None, True, "", "a" * 1000, "\u20ac" * 501, -1, 0.5, 1e300, [],
                                    {}, [[[0]]], {"a": {"b": 1}}, [None] * 5, ["x", "y"], [0.5, -1]])
 def test_nothing_is_refused_by_its_shape_that_the_schema_takes(wrong: Any) -> None:
@@ -215,6 +217,7 @@ def test_short_bodies_keep_each_of_their_errors(client: httpx.Client, smallest: 
     assert reply.json()["detail"] == "The request has 1800 errors; the first 1000 are listed."
 
 
+@pytest.mark.thorough_after(2)
 @pytest.mark.parametrize(("path", "endpoint", "name"), [
     ("/plan", "plan", "numbers for routes"), ("/jobs", "plan", "unknown fields"),
     ("/vroom", "vroom", "unknown fields"), ("/sweep", "sweep", "keys"),

@@ -129,6 +129,7 @@ def test_generated_client_plans_and_follows_a_job(
     assert printed.splitlines() == ["A 16.0", "done 16.0", "True", "DIMENSION_MISMATCH"]
 
 
+@pytest.mark.thorough_after(1)
 def test_python_example_runs(visitor: Visitor, tmp_path: Path) -> None:
     printed = run([sys.executable, "-"], example("python"), tmp_path, visitor)
     for line in ("plan: ", "end done ", "job: done ", "fleet: one ", "fleet: two "):
@@ -140,12 +141,14 @@ def test_a_key_that_nobody_asks_for_is_no_harm(server: Server, tmp_path: Path) -
     assert '"state":"done"' in printed
 
 
+@pytest.mark.thorough_after(1)
 def test_javascript_example_runs(visitor: Visitor, tmp_path: Path) -> None:
     printed = run(["node", "--input-type=module"], example("js"), tmp_path, visitor)
     for line in ("plan: ", "end done ", "job: done ", "fleet: one ", "fleet: two "):
         assert f"\n{line}" in f"\n{printed}"
 
 
+@pytest.mark.thorough_after(1)
 def test_curl_example_runs(visitor: Visitor, tmp_path: Path) -> None:
     printed = run(["bash", "-eu"], example("sh"), tmp_path, visitor)
     assert '"status":"complete"' in printed

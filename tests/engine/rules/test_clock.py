@@ -12,7 +12,7 @@ from model.problem import FULL_SPEED, IntArray, SpeedProfile
 from tests.engine.rules.asking import asked
 from tests.model.tiny import MINUTE, RUSH_HOUR
 
-pytestmark = pytest.mark.slow
+pytestmark = [pytest.mark.slow, pytest.mark.thorough]
 
 PROFILES = (None, RUSH_HOUR, SpeedProfile((), (FULL_SPEED // 7,)),
             SpeedProfile((MINUTE, 2 * MINUTE, 9 * MINUTE), (999_983, 1, 123_457, FULL_SPEED)))

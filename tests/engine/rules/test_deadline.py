@@ -6,7 +6,7 @@ import pytest
 
 from tests.engine.rules.asking import asked
 
-pytestmark = pytest.mark.slow
+pytestmark = [pytest.mark.slow, pytest.mark.thorough]
 
 
 def test_the_engines_clock_is_that_of_python() -> None:

@@ -11,7 +11,7 @@ from tests.engine.rules.asking import asked
 from tests.model.tiny import draw_tiny, with_energy
 from tests.seeds import often, seeds
 
-pytestmark = pytest.mark.slow
+pytestmark = [pytest.mark.slow, pytest.mark.thorough]
 
 EMPTY = -1
 """What is left of a battery once more was asked of it than it held."""

@@ -15,7 +15,7 @@ from model.solution import Solution
 from tests.engine.rules.asking import asked
 from tests.model.tiny import MINUTE, draw_late, draw_tiny, with_energy, with_gaps, with_pickups
 
-pytestmark = pytest.mark.slow
+pytestmark = [pytest.mark.slow, pytest.mark.thorough]
 
 
 def flown(kind: Record, places: Records, node: int, begin: int, out: int,

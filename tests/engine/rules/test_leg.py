@@ -10,7 +10,7 @@ from model.problem.quantities import LONGEST_NARROW, NO_LEG
 from tests.engine.rules.asking import legs_of, write
 from tests.seeds import seeds
 
-pytestmark = pytest.mark.slow
+pytestmark = [pytest.mark.slow, pytest.mark.thorough]
 
 COUNT = 60
 

@@ -16,7 +16,7 @@ from tests.engine.rules.asking import asked
 from tests.model.tiny import draw_tiny, with_dimensions, with_pickups
 from tests.seeds import seeds
 
-pytestmark = pytest.mark.slow
+pytestmark = [pytest.mark.slow, pytest.mark.thorough]
 
 
 def judged(kind: Record, places: Records) -> tuple[int, ...]:

@@ -14,7 +14,7 @@ from tests.engine.rules.asking import asked
 from tests.model.tiny import draw_tiny, with_beginnings, with_duty
 from tests.seeds import seeds
 
-pytestmark = pytest.mark.slow
+pytestmark = [pytest.mark.slow, pytest.mark.thorough]
 
 
 def judged(kind: Record, departure: int, end: int, stops: int) -> tuple[int, ...]:

@@ -13,7 +13,7 @@ from tests.engine.rules.asking import asked
 from tests.model.tiny import draw_tiny, with_beginnings
 from tests.seeds import seeds
 
-pytestmark = pytest.mark.slow
+pytestmark = [pytest.mark.slow, pytest.mark.thorough]
 
 
 def begun(kind: Record, time: int) -> tuple[int, ...]:

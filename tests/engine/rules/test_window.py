@@ -12,7 +12,7 @@ from model.solution import Route, Solution
 from tests.engine.rules.asking import asked
 from tests.model.tiny import MINUTE, draw_tiny, with_gaps
 
-pytestmark = pytest.mark.slow
+pytestmark = [pytest.mark.slow, pytest.mark.thorough]
 
 
 def times(place: Records, arrival: int) -> tuple[int, ...]:

@@ -138,6 +138,7 @@ def greedy(problem):
     return solution
 
 
+@pytest.mark.thorough_after(5)
 @pytest.mark.parametrize("seed", seeds(40))
 def test_what_is_said_is_what_the_judge_says(seed):
     rng = np.random.default_rng(seed)

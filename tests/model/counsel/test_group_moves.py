@@ -65,6 +65,7 @@ def drawn(rng: np.random.Generator) -> Problem:
                    (Travel(ways[0] * MINUTE, ways[1] * KM),), np.zeros((6, 2)), 1000.0)
 
 
+@pytest.mark.thorough_after(1)
 @pytest.mark.parametrize("seed", [28, 29, 30, 31, 34, 35, 38, 41])
 def test_all_who_go_together_are_moved_at_once_for_the_least_cost(seed: int) -> None:
     rng = np.random.default_rng(seed)
@@ -95,6 +96,7 @@ def test_all_who_go_together_are_moved_at_once_for_the_least_cost(seed: int) -> 
                 assert vehicle not in lowest
 
 
+@pytest.mark.thorough_after(1)
 @pytest.mark.parametrize("seed", [28, 31])
 @pytest.mark.parametrize("all_left_out", [True, False])
 def test_who_goes_along_with_one_who_is_left_out_is_served_with_him_for_the_least_cost(

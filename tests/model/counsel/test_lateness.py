@@ -135,6 +135,7 @@ def starts_of(route: Route) -> list[int]:
                             for visit in sortie.visits))]
 
 
+@pytest.mark.thorough
 def test_days_are_as_the_judge_times_them() -> None:
     compared = flown = 0
     for seed in seeds(300):

@@ -46,6 +46,7 @@ def as_told(bench: Bench, draft: Drafted) -> Drafted:
     return bench.as_searched(draft) if draft.timed.judged.violations else draft
 
 
+@pytest.mark.thorough_after(8)
 @pytest.mark.parametrize("seed", seeds(90))
 def test_the_search_offers_what_is_legal_and_among_it_what_costs_least(seed: int) -> None:
     for bench in benches(seed):

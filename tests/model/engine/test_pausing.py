@@ -91,6 +91,7 @@ def test_a_large_problem_is_packed_in_parts(large: Problem) -> None:
         pack([large], pause=Looks(looks.number // 2))
 
 
+@pytest.mark.thorough
 def test_a_large_neighbourhood_is_made_in_parts(large: Problem) -> None:
     instance = pack([large], legs=False)
     looks = quickest(lambda looks: make_neighbourhood(large, instance, looks))
@@ -123,6 +124,7 @@ def impatient(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("model.search.improve.BEGINNING", 0.0)
 
 
+@pytest.mark.thorough_after(2)
 @pytest.mark.usefixtures("impatient")
 @pytest.mark.parametrize("after", [0, 2, 60, 120])
 def test_planning_ends_before_its_search_when_told(large: Problem, after: int) -> None:

@@ -11,6 +11,7 @@ from model.judge.timing import RouteDecision, TripDecision
 from tests.model.search.break_days import judged_working, least_working, orders, small_day
 
 
+@pytest.mark.thorough_after(3)
 @pytest.mark.parametrize(("seed", "is_soft"), [
     *((seed, False) for seed in (2, 4, 6, 7, 9, 21, 29, 35, 112)),
     *((seed, True) for seed in (48, 58, 151))])

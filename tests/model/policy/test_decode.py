@@ -71,6 +71,7 @@ def test_cold_samples_follow_the_greedy_plan(policy: Policy, problem: Problem) -
             == plan(policy, problem, DecodeConfig(most_views=1)))
 
 
+@pytest.mark.thorough_after(1)
 def test_views_and_routes_of_all_samples_make_plans_cheaper(policy: Policy) -> None:
     costs = np.zeros((6, 3))
     for number, row in enumerate(costs):
@@ -129,6 +130,7 @@ def test_draws_follow_the_probabilities_and_never_what_is_masked() -> None:
     assert drawn[0] / len(logits) == pytest.approx(0.7, abs=0.02)
 
 
+@pytest.mark.thorough_after(3)
 @pytest.mark.parametrize("temperature", [0.1, 0.5, 1.0, 3.0])
 @pytest.mark.parametrize("count", [1, 3, 16, 40])
 def test_draws_of_the_engine_follow_the_probabilities(count: int, temperature: float) -> None:
@@ -146,6 +148,7 @@ def test_nothing_is_drawn_without_temperature() -> None:
     assert random[0] == 7
 
 
+@pytest.mark.thorough_after(3)
 @pytest.mark.parametrize("variant", VARIANTS)
 def test_rollouts_of_the_engine_and_the_graph_plan_the_same(variant: str) -> None:
     policy = load_policy(WEIGHTS / "attention")

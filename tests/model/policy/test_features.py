@@ -80,6 +80,7 @@ def test_each_action_has_one_kind_and_its_token(problems: list[Problem],
             assert (np.array(step.token) == codes // 4 + offset).all()
 
 
+@pytest.mark.thorough_after(2)
 @pytest.mark.parametrize("units", [Units(length=2), Units(time=4), Units(amount=8),
                                    Units(money=0.25)], ids=str)
 def test_features_are_free_of_units(problems: list[Problem], alone: list[Batch],

@@ -82,6 +82,7 @@ def test_changes_are_counted_as_by_trying_all(seed: int) -> None:
         for stop in trip.customer_stops)
 
 
+@pytest.mark.thorough_after(3)
 @pytest.mark.parametrize("seed", seeds(30))
 def test_the_cheapest_plan_with_its_changes_is_found(planner: Planner, seed: int) -> None:
     rng = np.random.default_rng(seed)

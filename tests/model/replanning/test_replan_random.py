@@ -217,6 +217,7 @@ def replan_later(planner: Planner, problem: Problem, plan: Solution, now: int,
     assert_unchanged(problem, plan, result.solution, now, broken)
 
 
+@pytest.mark.thorough_after(8)
 @pytest.mark.parametrize("seed", seeds(60))
 def test_tiny_plans_go_on(planner: Planner, seed: int) -> None:
     rng = np.random.default_rng((seed, 5))
@@ -270,12 +271,14 @@ def test_tiny_plans_on_charged_batteries_go_on(planner: Planner, seed: int) -> N
     replan_and_check(planner, replace(problem, customers=anyone), rng)
 
 
+@pytest.mark.thorough_after(5)
 @pytest.mark.parametrize("seed", seeds(40))
 def test_tiny_plans_of_vehicles_that_fly_go_on(planner: Planner, seed: int) -> None:
     rng = np.random.default_rng((13, seed))
     replan_and_check(planner, with_fliers(rng, draw_tiny(rng)), rng)
 
 
+@pytest.mark.thorough_after(3)
 @pytest.mark.parametrize("seed", seeds(40))
 def test_tiny_plans_from_hubs_that_have_little_go_on(planner: Planner, seed: int) -> None:
     rng = np.random.default_rng((15, seed))
@@ -307,6 +310,7 @@ def with_fairness(rng: np.random.Generator, problem: Problem) -> Problem:
         float(rng.integers(0, 2)) * 30, balance, int(rng.integers(0, 4)), 40.0))
 
 
+@pytest.mark.thorough_after(10)
 @pytest.mark.parametrize("change", [
     with_fairness, with_own_durations, with_goods, with_setups, with_limits_aboard,
     with_all_at_once, with_ranges, with_few_airborne, with_few_launch_places, with_storms,
@@ -345,6 +349,7 @@ def test_tiny_plans_go_on_from_launch_sites(
     replan_and_check(planner, change(rng, draw_for_drones(rng)), rng)
 
 
+@pytest.mark.thorough_after(6)
 @pytest.mark.parametrize("variant", VARIANTS)
 @pytest.mark.parametrize("seed", seeds(4))
 def test_plans_of_all_classes_go_on(planner: Planner, variant: str, seed: int) -> None:

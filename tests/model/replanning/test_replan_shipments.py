@@ -31,6 +31,7 @@ def fetched_at(problem: Problem, plan: Solution) -> int | None:
                 for stop in trip.customer_stops if stop.node in problem.shipment_at), default=None)
 
 
+@pytest.mark.thorough_after(10)
 @pytest.mark.parametrize("seed", [
     *range(0, 60, 2), 11, 17, 27, 53, 59, 93, 137, 183, 203, 213, 283, 295])
 def test_tiny_plans_with_shipments_go_on(planner: Planner, seed: int) -> None:

@@ -31,6 +31,7 @@ def found(problem: Problem, data: ProblemData, seed: int) -> float:
     return float(searcher.value.best)
 
 
+@pytest.mark.thorough_after(1)
 @pytest.mark.parametrize("variant", ["cvrp", "vrptw", "hetero", "table1"])
 def test_giving_a_turn_up_loses_nothing(variant: str) -> None:
     """It is given up once it costs too much, which it would in the end."""

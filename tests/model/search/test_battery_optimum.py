@@ -45,6 +45,7 @@ def all_rules_charging(rng: np.random.Generator) -> Problem:
             return problem
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize(("draw", "number"), [
     (charged_batteries, 2), (all_rules_flown_both_ways, SHARE), (all_rules_charging, SHARE)],
     ids=lambda draw: getattr(draw, "__name__", ""))

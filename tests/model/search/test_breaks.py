@@ -97,6 +97,7 @@ def late(rng: np.random.Generator) -> Problem:
                                 late_cost_per_hour=60.0) for each in problem.customers))
 
 
+@pytest.mark.thorough_after(1)
 @pytest.mark.parametrize(("draw", "seed"), [
     *((drawn, seed) for seed in seeds(8)), *((in_order, seed) for seed in seeds(3)),
     *((late, seed) for seed in (12, 27))])
@@ -110,6 +111,7 @@ def test_search_finds_the_cheapest_plan_with_breaks(
     assert judged.cost.total == pytest.approx(cheapest(problem))
 
 
+@pytest.mark.thorough
 def test_search_finds_the_cheapest_of_all_ways_to_take_breaks() -> None:
     # Among them: breaks before or behind a leg, left out by who leaves later, or out of order, and
     # with limits on times between; some of each.
@@ -188,6 +190,7 @@ def test_breaks_that_nobody_needs_change_no_plan() -> None:
     assert plans[0] == plans[1]
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("seed", [40_206, 40_046, 40_097, 40_123])
 def test_breaks_lie_where_missed_windows_cost_least(seed: int) -> None:
     """One of these left out a customer who can be served, too late."""

@@ -37,6 +37,7 @@ def plan_of(problem: Problem) -> Solution:
     return found.solution
 
 
+@pytest.mark.thorough_after(5)
 @pytest.mark.parametrize("variant", [
     "cvrp", "vrptw", "multitrip", "drone", "pickups", "various", "particular"])
 @pytest.mark.parametrize("on_globe", [False, True])
@@ -74,6 +75,7 @@ def test_a_leg_that_does_not_fit_is_planned_with() -> None:
     assert plan_of(problem) == plan_of(wide)
 
 
+@pytest.mark.thorough_after(1)
 @pytest.mark.parametrize("rules", [all_rules, all_rules_open, all_rules_setups])
 def test_flights_that_there_are_not_are_not_flown_by_either(
         rules: Callable[[np.random.Generator], Problem],

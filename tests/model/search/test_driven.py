@@ -3,6 +3,7 @@
 from dataclasses import replace
 
 import numpy as np
+import pytest
 
 from model.engine.instance import pack
 from model.judge.check import judge_route
@@ -16,6 +17,8 @@ from tests.model.tiny import draw_tiny
 from tests.model.tiny_breaks import with_breaks
 from tests.model.tiny_driving import with_driving
 from tests.seeds import often
+
+pytestmark = pytest.mark.thorough
 
 
 def drawn(seed: int) -> Problem:

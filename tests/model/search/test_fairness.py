@@ -103,6 +103,7 @@ def told_apart(problem: Problem, plan: Solution) -> float:
     return ways + 0.02 * per_hour * squares / (len(ends) * max(ends))
 
 
+@pytest.mark.thorough_after(2)
 @pytest.mark.parametrize(("seed", "fairness"), [
     (1, ONLY_END), (2, ONLY_END), (3, Fairness(0.0, Balance("duration", 40.0))),
     (4, Fairness(0.0, Balance("stops", 6.0))), (5, Fairness(0.0, Balance("load", 4.0))),

@@ -29,6 +29,7 @@ def flown_problem(seed: int) -> Problem:
         for kind in problem.vehicle_types))
 
 
+@pytest.mark.thorough_after(3)
 @pytest.mark.parametrize("seed", [*range(8), 27, 133])
 def test_a_customer_goes_where_that_costs_least(seed: int) -> None:
     problem = flown_problem(seed)

@@ -43,6 +43,7 @@ def drawn_in_part(rng: np.random.Generator) -> Problem:
     return replace(problem, customers=tuple(customers))
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize(("draw", "seeds"), [
     (drawn_problem, (0, 1)), (drawn_parts, (0, 5)), (drawn_in_part, (0, 3))])
 def test_search_finds_the_cheapest_way_to_fly_shipments(

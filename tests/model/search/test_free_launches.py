@@ -9,7 +9,7 @@ from tests.model.search.test_optimum import street_problem
 from tests.model.simulation.test_held_launches import searched
 from tests.seeds import often, seeds
 
-pytestmark = pytest.mark.slow
+pytestmark = [pytest.mark.slow, pytest.mark.thorough]
 
 MINUTE = 60_000
 

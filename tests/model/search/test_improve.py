@@ -72,6 +72,7 @@ def has_crowded_skies(problem: Problem) -> bool:
                for kind in problem.vehicle_types)
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize(("crowded", "most_dearer"), [(False, 0), (True, 7)])
 def test_any_plan_comes_back_no_dearer_without_a_turn(crowded: bool, most_dearer: int) -> None:
     # The search launches in an order of its own, so a few plans with several drones cost more;
@@ -116,6 +117,7 @@ def test_plans_that_once_broke_rules_are_legal(num_customers: int, seed: int,
     judged(problem, search(problem, nobody(problem), turns=100, seed=seed))
 
 
+@pytest.mark.thorough_after(3)
 @pytest.mark.parametrize("variant", VARIANTS)
 def test_plans_of_larger_problems_are_legal(variant: str) -> None:
     for seed in seeds(12):

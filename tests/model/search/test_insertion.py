@@ -165,6 +165,7 @@ def without(plan: Solution, problem: Problem, node: int) -> Solution:
     return Solution(tuple(routes), (node,))
 
 
+@pytest.mark.thorough_after(4)
 @pytest.mark.parametrize("problem", [
     *(problem_with_trips(seed) for seed in seeds(12)),
     *(problem_by_time(seed) for seed in seeds(12)),
@@ -182,6 +183,7 @@ def test_a_customer_goes_where_that_costs_least(problem: Problem) -> None:
         assert found == pytest.approx(expected)
 
 
+@pytest.mark.thorough_after(2)
 @pytest.mark.parametrize("seed", seeds(12))
 def test_a_shipment_goes_where_that_costs_least(seed: int) -> None:
     problem = problem_of_shipments(seed)

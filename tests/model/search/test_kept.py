@@ -30,6 +30,7 @@ def begun(problem: Problem, data: ProblemData) -> Searcher:
     return searcher
 
 
+@pytest.mark.thorough_after(2)
 @pytest.mark.parametrize(("variant", "seed"), [
     ("soft", 3), ("soft", 4), ("multitrip", 4), ("drone", 5), ("mixed", 4)])
 def test_places_kept_are_the_cheapest_where_more_than_distance_counts(variant: str,

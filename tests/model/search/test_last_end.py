@@ -10,6 +10,8 @@ from model.search import strategy
 from model.search.improve import SearchConfig, improve
 from model.solution import Solution
 
+pytestmark = pytest.mark.thorough
+
 MINUTE = 60_000
 
 

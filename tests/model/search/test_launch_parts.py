@@ -41,6 +41,7 @@ def tour(places: list[list[int]], faster: int) -> Problem:
                    points, unassigned_cost=1000.0 * MM_PER_KM)
 
 
+@pytest.mark.thorough_after(1)
 @pytest.mark.parametrize(("places", "faster", "least", "least_without"), TOURS)
 def test_tours_of_ten_with_revisits_are_the_shortest_at_once(
         places: list[list[int]], faster: int, least: float, least_without: float) -> None:

@@ -35,6 +35,7 @@ def test_a_plan_bred_from_itself_is_that_plan() -> None:
         assert {route.trips for route in after.routes} == {route.trips for route in before.routes}
 
 
+@pytest.mark.thorough_after(2)
 @pytest.mark.parametrize("seed", range(4))
 def test_plans_bred_from_two_keep_rules_and_serve_all_in_the_end(seed: int) -> None:
     problem = planted(seed, 4, True)
@@ -106,6 +107,7 @@ def test_searches_breed_and_begin_once_more(monkeypatch: pytest.MonkeyPatch) -> 
     assert found.turns == config.turns
 
 
+@pytest.mark.thorough
 def test_breeding_ends_where_exchanges_bring_no_other_plan(monkeypatch: pytest.MonkeyPatch) -> None:
     tight, cross, number = planted(1, 4, True), memetic._Breeder._cross, 0
 

@@ -232,6 +232,7 @@ def test_sorties_of_several_change_to_no_drone_that_lifts_less() -> None:
     assert pairs > 0
 
 
+@pytest.mark.thorough_after(1)
 @pytest.mark.parametrize("seed", seeds(8))
 def test_routes_of_two_trips_are_given_to_no_truck_that_drives_one(seed: int) -> None:
     places = np.random.default_rng(seed).uniform(-9, 9, (16, 2)).tolist()
@@ -283,6 +284,7 @@ def test_first_plan_uses_other_types_where_one_does_not_suffice() -> None:
     assert found.solution.unassigned == ()
 
 
+@pytest.mark.thorough
 def test_thousands_begin_with_a_plan_that_is_not_far_from_good() -> None:
     # Beside neighbours; where all routes were looked at, it was twice as dear as need be.
     places = np.random.default_rng(3).uniform(-30.0, 30.0, (THOUSANDS, 2)).tolist()
@@ -297,6 +299,7 @@ def test_thousands_begin_with_a_plan_that_is_not_far_from_good() -> None:
     assert better.cost < begun.cost < 1.35 * better.cost
 
 
+@pytest.mark.thorough
 def test_thousands_begin_with_the_same_plan_where_making_the_neighbourhood_took_its_time(
         monkeypatch: pytest.MonkeyPatch) -> None:
     # A tenth of the time was over: no plan by one type after another was tried any more.
@@ -319,6 +322,7 @@ def test_thousands_begin_with_the_same_plan_where_making_the_neighbourhood_took_
     assert late.first_cost == begun.first_cost
 
 
+@pytest.mark.thorough
 def test_thousands_begin_with_several_trips_a_vehicle_and_more_are_found() -> None:
     places = np.random.default_rng(4).uniform(-30.0, 30.0, (THOUSANDS, 2)).tolist()
     problem = on_a_plane(list(map(tuple, places)), replace(

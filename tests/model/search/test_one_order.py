@@ -42,6 +42,7 @@ def slots_of(customer: Customer) -> list[Customer]:
         (middle, latest, "drone"), (middle, latest, "truck"))]
 
 
+@pytest.mark.thorough_after(4)
 @pytest.mark.parametrize("variant", VARIANTS)
 def test_order_is_put_where_the_judge_finds_it_legal_at_that_cost(variant: str) -> None:
     served = 0

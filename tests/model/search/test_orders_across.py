@@ -130,6 +130,7 @@ def test_a_driver_rests_while_it_waits_for_an_order() -> None:
     assert plan.unassigned == ()
 
 
+@pytest.mark.thorough_after(2)
 @pytest.mark.parametrize("resting", [with_driving, with_breaks, with_sites_and_driving])
 @pytest.mark.parametrize("change", [with_order, with_order_across])
 def test_rollouts_and_search_keep_orders_beside_rests(resting: Change, change: Change) -> None:

@@ -58,6 +58,7 @@ def test_many_types_take_no_longer_than_a_hundred_comparisons_of_each_with_each(
             < 100 * seconds_of(lambda: numbers == numbers[:, None]))
 
 
+@pytest.mark.thorough_after(1)
 @pytest.mark.parametrize("layout", ["one place", "all but few at one place"])
 def test_neighbours_at_one_place_are_ranked_soon(layout: str) -> None:
     problem = generate(np.random.default_rng(0), 2000, "cvrp")

@@ -76,6 +76,7 @@ def test_best_plan_is_the_cheapest_of_the_routes_of_two() -> None:
     assert better >= often(4)
 
 
+@pytest.mark.thorough_after(3)
 @pytest.mark.parametrize("variant", VARIANTS)
 def test_plan_put_together_keeps_all_rules(variant: str) -> None:
     for seed in range(4):
@@ -125,6 +126,7 @@ def test_who_goes_together_does_so_in_plans_put_together() -> None:
                 assert check(paired, read_plan(data, searcher)).violations == ()
 
 
+@pytest.mark.thorough_after(2)
 @pytest.mark.parametrize(("variant", "threads"), [
     ("vrptw", 1), ("hetero", 2), ("drone", 1), ("mixed", 2), ("multitrip", 1)])
 def test_search_that_looks_often_is_legal_and_repeatable(

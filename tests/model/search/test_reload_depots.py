@@ -4,6 +4,7 @@ from collections.abc import Iterator
 from itertools import combinations, permutations, product
 
 import numpy as np
+import pytest
 
 from model.engine.instance import pack
 from model.judge.check import check
@@ -12,6 +13,8 @@ from model.problem import Customer, Depot, Problem, Travel, VehicleType
 from model.search.improve import SearchConfig, improve
 from model.solution import Solution
 from tests.seeds import seeds
+
+pytestmark = pytest.mark.thorough
 
 METRE = 1000
 

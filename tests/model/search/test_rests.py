@@ -115,6 +115,7 @@ def test_a_driver_rests_while_a_drone_from_the_depot_is_out() -> None:
 
 
 @pytest.mark.slow
+@pytest.mark.thorough
 @pytest.mark.parametrize(("draw", "seed"), [
     *((drawn, seed) for seed in (1, 4, 9)), *((slow, seed) for seed in (5, 9))])
 def test_one_rest_is_taken_where_it_costs_least(draw: Callable[[np.random.Generator], Problem],

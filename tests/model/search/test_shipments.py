@@ -55,6 +55,7 @@ def begun(problem: Problem) -> tuple[ProblemData, Searcher]:
     return data, searcher
 
 
+@pytest.mark.thorough_after(4)
 @pytest.mark.parametrize("scan_all", [True, False])
 @pytest.mark.parametrize("seed", range(6))
 def test_plans_keep_rules_and_cost_what_they_are_said_to(seed: int, scan_all: bool) -> None:

@@ -55,6 +55,7 @@ def planned(problem: Problem, turns: int, seed: int = 0, without: bool = False) 
     return improve(problem, pack([problem]), nothing, config).solution
 
 
+@pytest.mark.thorough_after(3)
 @pytest.mark.parametrize(("trucks", "stated"), [
     (1, {}), (1, {"endurance": MS_PER_HOUR}), (1, {"cost_per_km": 0.0, "cost_per_hour": 1.0}),
     (1, {"endurance": MS_PER_HOUR // 4, "launch_duration": 60_000, "recovery_duration": 60_000}),
@@ -73,6 +74,7 @@ def test_plans_keep_all_rules_and_cost_what_the_search_says(
         assert evaluation.cost.total == pytest.approx(improved.cost, rel=1e-9)
 
 
+@pytest.mark.thorough
 def test_trucks_and_drones_are_done_sooner_by_them() -> None:
     """By far, in as many turns."""
     costs = np.array([[check(problem, planned(problem, 120, seed, without)).cost.total

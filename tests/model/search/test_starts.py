@@ -123,6 +123,7 @@ def with_drones(problem: Problem, count: int) -> Problem:
         for kind in problem.vehicle_types]))
 
 
+@pytest.mark.thorough_after(2)
 @pytest.mark.parametrize(("variant", "drones", "starting"), [
     ("vrptw", 0, BY_ONE_TYPE), ("hetero", 0, BY_TYPES), ("drone", 1, WITH_ONE_DRONE),
     ("drone", 2, replace(WITH_ONE_DRONE, most=0))])

@@ -10,7 +10,7 @@ from model.search import worker
 from model.search.improve import SearchConfig, improve
 from model.solution import Solution
 
-pytestmark = pytest.mark.slow
+pytestmark = [pytest.mark.slow, pytest.mark.thorough]
 
 CAPACITY, VEHICLES, LOADS = 100_000, 8, 8
 HOURS = 0.6

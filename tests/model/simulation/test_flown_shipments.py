@@ -1,6 +1,7 @@
 """Which shipments drones may fetch and deliver, held to the checker."""
 
 import numpy as np
+import pytest
 
 from model.simulation.actions import LAUNCH, encode_action
 from tests.model.search.test_optimum import one_drone
@@ -9,6 +10,7 @@ from tests.model.tiny import draw_tiny
 from tests.model.tiny_shipments import with_flown_parts, with_flown_shipments
 
 
+@pytest.mark.thorough
 def test_drones_fetch_and_deliver_exactly_what_can_be_brought() -> None:
     launched = [0, 0, 0]
     for seed in range(72):

@@ -155,6 +155,7 @@ def test_a_drone_held_at_the_depot_is_no_work_before_it_takes_off(late):
     assert searched(late).unassigned == ()
 
 
+@pytest.mark.thorough_after(1)
 @pytest.mark.parametrize("several", [False, True])
 @pytest.mark.parametrize("on_battery", [False, True])
 def test_the_mask_is_exact_where_launches_are_held_back(several: bool, on_battery: bool) -> None:
@@ -260,6 +261,7 @@ def is_served(problem: Problem) -> bool:
     return bool(opens) and not searched(problem, 20).unassigned
 
 
+@pytest.mark.thorough
 def test_a_remedy_for_a_lone_customer_is_never_false_and_none_is_needed_where_one_fits() -> None:
     remedies = 0
     for seed in seeds(110):

@@ -32,6 +32,7 @@ def legal_behind(problem: Problem, position: Position, closed: int) -> tuple[set
     return {*legal_codes(own, position.vehicle, gone, position.used)}, own is not problem
 
 
+@pytest.mark.thorough_after(1)
 @pytest.mark.parametrize("change", [with_gaps, with_relations, with_order])
 def test_orders_across_vehicles_bound_when_others_serve(change: Change) -> None:
     bound = 0

@@ -181,6 +181,7 @@ def fliers_among_all(rng: np.random.Generator, problem: Problem) -> Problem:
                      with_places)
 
 
+@pytest.mark.thorough_after(8)
 @pytest.mark.parametrize("change", [
     with_table, with_places, with_beginnings, with_gaps, with_energy, with_open_ends, with_reloads,
     with_open_reloads, with_duty, with_own_durations, with_goods, with_setups, with_limits_aboard,
@@ -239,8 +240,7 @@ def flown_both_ways(rng: np.random.Generator, problem: Problem) -> Problem:
 @pytest.mark.parametrize("change", [
     with_pickups, begun_with_pickups, many_dimensions, with_pickups_and_all_else,
     with_times_and_all_else, with_times_on_batteries, flown_both_ways])
-def test_what_is_aboard_at_each_stop_decides_what_is_legal(
-        change: Change) -> None:
+def test_what_is_aboard_at_each_stop_decides_what_is_legal(change: Change) -> None:
     for seed in seeds(28):
         rng = np.random.default_rng((seed, 5))
         problem = change(rng, draw_tiny(rng))
@@ -269,6 +269,7 @@ def test_one_place_of_a_customer_is_used() -> None:
     assert elsewhere > often(20)
 
 
+@pytest.mark.thorough_after(1)
 @pytest.mark.parametrize("change", [with_shipments, shipments_both_ways, shipments_among_all])
 def test_shipments_are_picked_up_exactly_if_they_can_be_delivered(change: Change) -> None:
     delivered = 0

@@ -88,6 +88,7 @@ def test_no_other_departure_shortens_the_working_duration_without_lateness() -> 
                 assert working_duration(problem, other) >= shortest or (late > 0).any()
 
 
+@pytest.mark.thorough
 def test_leaving_later_is_never_worse_with_drones_and_rush_hours() -> None:
     problems = random_problems(seed=41, count=often(300))
     problems += [draw_tiny(np.random.default_rng(seed), 0.7) for seed in seeds(250)]

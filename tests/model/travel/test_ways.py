@@ -65,6 +65,7 @@ def test_ways_between_corners_may_lead_exactly_northwest() -> None:
     assert flown == pytest.approx(shortest(points, rings), abs=1e-3)
 
 
+@pytest.mark.thorough_after(2)
 @pytest.mark.parametrize("seed", range(4))
 def test_ways_past_many_areas_are_those_of_a_plain_search(seed: int) -> None:
     rng = np.random.default_rng(seed)

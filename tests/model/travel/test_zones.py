@@ -44,6 +44,7 @@ def star(x: float, y: float, radius: float, sizes: list[float]) -> Polygon:
                     for size, turn in zip(sizes, turns, strict=True)])
 
 
+@pytest.mark.thorough
 @given(STARS)
 @settings(max_examples=150, deadline=None)
 def test_what_is_dissolved_holds_what_was_published_and_hardly_more(

@@ -210,6 +210,7 @@ def test_sheets_of_libreoffice() -> None:
     assert customers(reply)[0]["location"] == [11.5754, 48.1371]
 
 
+@pytest.mark.thorough
 def test_twenty_thousand_rows_are_read() -> None:
     reply = imported(makes.large())
     assert reply.rows == 20_000

@@ -109,6 +109,7 @@ def test_a_body_that_is_too_large_is_refused(client: httpx.Client) -> None:
     assert posted(client, b"a,b\n" * 2**19).status_code == 413
 
 
+@pytest.mark.thorough
 def test_others_are_answered_while_many_rows_are_read(client: httpx.Client) -> None:
     done = threading.Event()
 
@@ -152,6 +153,7 @@ def test_a_workbook_that_unpacks_to_too_much_is_refused(client: httpx.Client) ->
     assert "workbook" in reply.json()["detail"]
 
 
+@pytest.mark.thorough
 @settings(max_examples=60, deadline=None, suppress_health_check=list(HealthCheck))
 @given(content=st.binary(max_size=400) | st.text(max_size=400).map(lambda text: text.encode())
        | st.lists(st.lists(st.sampled_from(
@@ -167,6 +169,7 @@ def test_no_bytes_are_an_internal_error(client: httpx.Client, content: bytes) ->
         assert len({customer["id"] for customer in plan["customers"]}) == len(plan["customers"])
 
 
+@pytest.mark.thorough
 @settings(max_examples=10, deadline=None, suppress_health_check=list(HealthCheck))
 @given(cut=st.integers(4, 3000), flipped=st.lists(st.integers(4, 3000), max_size=5))
 def test_no_damaged_workbook_is_an_internal_error(client: httpx.Client, cut: int,

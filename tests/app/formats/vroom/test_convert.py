@@ -60,6 +60,7 @@ def draw_routes(draw: random.Random, case: Case) -> Routes:
     return routes
 
 
+@pytest.mark.thorough_after(20)
 @pytest.mark.parametrize("seed", seeds(300))
 def test_plans_that_pass_the_planners_check_keep_vrooms_rules_at_vrooms_cost(seed: int) -> None:
     draw = random.Random(seed)
@@ -76,6 +77,7 @@ def test_plans_that_pass_the_planners_check_keep_vrooms_rules_at_vrooms_cost(see
         assert cost == pytest.approx(case.cost(routes), abs=0.01)
 
 
+@pytest.mark.thorough_after(20)
 @pytest.mark.parametrize("seed", seeds(300))
 def test_plans_that_keep_vrooms_rules_pass_the_planners_check(seed: int) -> None:
     draw = random.Random(seed)

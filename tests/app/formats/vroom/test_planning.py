@@ -62,6 +62,7 @@ def test_random_requests_get_sound_replies(ours: Solve, seed: int) -> None:
     judge(request, ours(request, 100))
 
 
+@pytest.mark.thorough
 def test_small_requests_are_solved_about_as_well_as_by_vroom(ours: Solve) -> None:
     ratios, worse = [], 0
     for seed in seeds(40):

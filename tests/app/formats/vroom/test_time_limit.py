@@ -64,6 +64,7 @@ def no_matrices(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(Drives, "_travel", build)
 
 
+@pytest.mark.thorough
 @pytest.mark.usefixtures("no_matrices")
 def test_more_work_than_there_is_time_for_is_refused_before_it_is_done() -> None:
     # Far more than there is time for, which is far more than this takes on any machine.

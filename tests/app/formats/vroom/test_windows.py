@@ -65,6 +65,7 @@ def answered(planner: Planner, request: Data) -> Data:
     return reply
 
 
+@pytest.mark.thorough_after(2)
 @pytest.mark.parametrize(("jobs", "windows", "vehicles"), [
     (10, 10, 1), (20, 20, 2), (20, 100, 2), (20, 100, 1), (60, 100, 4), (60, 100, 1)])
 def test_everyone_is_served_whom_vroom_serves(planner: Planner, jobs: int, windows: int,

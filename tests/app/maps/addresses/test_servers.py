@@ -190,6 +190,7 @@ NONSENSE = {
 }
 
 
+@pytest.mark.thorough_after(8)
 @pytest.mark.parametrize("fault", NONSENSE.values(), ids=NONSENSE)
 @pytest.mark.parametrize("kind", KINDS)
 def test_nonsense_is_an_error(kind: ServerKind, fault: Fault) -> None:

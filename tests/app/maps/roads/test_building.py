@@ -41,6 +41,7 @@ def test_a_build_is_made_once_and_found(extract: Extract, tools: Tools) -> None:
     assert [path.name for path in build.folder.parent.iterdir()] == [build.key]
 
 
+@pytest.mark.thorough
 def test_an_extract_that_changed_has_no_build(built: Extract, tools: Tools) -> None:
     build = find_build(built, tools)  # which was copied since: another time, the same content
     assert build == build_roads(built, tools)
@@ -63,6 +64,7 @@ def test_builds_of_another_version_of_osrm_are_not_used(built: Extract, tools: T
         find_build(built, tools)
 
 
+@pytest.mark.thorough
 def test_vans_have_roads_of_their_own(extract: Extract, tools: Tools) -> None:
     assert build_roads(Extract(extract.path, "van"), tools).key.startswith("van-")
 
@@ -89,6 +91,7 @@ def test_progress_follows_what_a_tool_writes() -> None:
         [0.0, 0.025, 0.05, 0.5, 0.5, 0.5, 0.95])
 
 
+@pytest.mark.thorough
 @pytest.mark.usefixtures("osrm_on_path")
 def test_the_command_prepares_an_extract(extract: Extract) -> None:
     done = CliRunner().invoke(cli, ["roads", "build", str(extract.path), "--profile", "bicycle"])

@@ -24,7 +24,7 @@ from tests.app.maps.roads.conftest import served
 from tests.app.maps.roads.town import place, write_town
 from tests.conftest import made_once
 
-pytestmark = pytest.mark.slow
+pytestmark = [pytest.mark.slow, pytest.mark.thorough]
 
 Data = dict[str, Any]
 Serve = Callable[..., httpx.Client]

@@ -97,6 +97,7 @@ def test_fault_that_stays_is_an_error(name: str, helsinki_osrm: str, places: Flo
     assert proxy.questions == 4
 
 
+@pytest.mark.thorough_after(12)
 @pytest.mark.parametrize("name", WRONG)
 def test_wrong_answer_is_an_error(name: str, helsinki_osrm: str, places: FloatArray) -> None:
     with proxied(helsinki_osrm, Once(WRONG[name])) as proxy:
@@ -120,6 +121,7 @@ def test_block_that_contradicts_others_is_asked_for_again(
         engine.close()
 
 
+@pytest.mark.thorough
 def test_never_a_wrong_table(helsinki_osrm: str, places: FloatArray,
                              true_table: RoadTable) -> None:
     rng = np.random.default_rng(0)

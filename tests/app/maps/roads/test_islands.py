@@ -48,6 +48,7 @@ def table_of(longitudes: list[float], max_places: int) -> RoadTable:
     return table
 
 
+@pytest.mark.thorough_after(3)
 @pytest.mark.parametrize("longitudes", [
     [24.96, 24.97, 24.98, 25.01, 25.02, 25.03],
     [25.01, 25.02, 25.03, 25.04, 24.98, 24.97],

@@ -135,6 +135,7 @@ def test_a_job_cancelled_while_its_roads_fail_is_over(office: Office) -> None:
     assert office.row.state == "cancelled"
 
 
+@pytest.mark.thorough
 def test_jobs_that_wait_for_roads_leave_the_only_place_to_others(
         tmp_path: Path, tools: Tools, prepared_build: Build,
         monkeypatch: pytest.MonkeyPatch) -> None:

@@ -17,7 +17,7 @@ from model.problem import FloatArray
 from tests.app.maps.roads import faults
 from tests.app.maps.roads.faults import Answer, Fault, Proxy, standing_in
 
-pytestmark = pytest.mark.slow
+pytestmark = [pytest.mark.slow, pytest.mark.thorough]
 
 PLACES = np.array([[8.681495, 49.41461], [8.686507, 49.41943], [8.687872, 49.420318]])
 SNAPPED = ([8.681496, 49.414601], [8.686507, 49.41943], [8.687872, 49.420318])

@@ -63,6 +63,7 @@ def test_table_is_what_the_server_says(osrm: Osrm, helsinki_osrm: str,
     assert (table.durations_s != table.durations_s.T)[both].mean() > 0.5
 
 
+@pytest.mark.thorough_after(1)
 @pytest.mark.parametrize("max_places", [2, 7, 24])
 def test_blocks_make_the_same_table(max_places: int, osrm: Osrm, helsinki_osrm: str,
                                     helsinki_places: Places) -> None:
@@ -74,6 +75,7 @@ def test_blocks_make_the_same_table(max_places: int, osrm: Osrm, helsinki_osrm: 
         np.testing.assert_array_equal(got, wanted)
 
 
+@pytest.mark.thorough
 def test_more_places_than_the_server_takes_at_once(
         osrm: Osrm, osrm_folder: Path, helsinki_graph: Path, helsinki_places: Places) -> None:
     places = helsinki_places(230, 2)

@@ -18,7 +18,7 @@ from app.maps.roads.server import RoadServer
 from model.problem import FloatArray
 from tests.app.maps.roads.conftest import Places
 
-pytestmark = pytest.mark.slow
+pytestmark = [pytest.mark.slow, pytest.mark.thorough]
 
 
 def table_of(url: str, form: TableForm, places: FloatArray, max_places: int = 100) -> RoadTable:

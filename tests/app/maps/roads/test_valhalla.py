@@ -20,7 +20,7 @@ from tests.app.maps.roads.conftest import Places
 from tests.app.maps.roads.faults import Answer, Fault, Reply, proxied
 from tests.app.maps.roads.test_osrm import drivable
 
-pytestmark = pytest.mark.slow
+pytestmark = [pytest.mark.slow, pytest.mark.thorough]
 
 FAR = (10.0, 10.0)
 """No road of Helsinki is near."""

@@ -1,6 +1,7 @@
 """Pictures that a client asks the service for."""
 
 import httpx
+import pytest
 from pydantic_core import to_json
 
 from app.requests.conversion.names import called
@@ -8,6 +9,7 @@ from app.requests.reading import read_request
 from tests.app.plans.asking import documented, planned, refused
 
 
+@pytest.mark.thorough
 def test_a_plan_is_drawn_with_what_people_call_its_vehicles(client: httpx.Client) -> None:
     problem = documented("table1")
     problem["fleet"][0]["names"] = ["Ayşe"]

@@ -218,6 +218,7 @@ def test_page_has_picture_costs_and_stops_and_loads_nothing(rich: Request,
         assert text in page
 
 
+@pytest.mark.thorough_after(1)
 @pytest.mark.parametrize("name", HOSTILE)
 def test_hostile_ids_are_only_shown(name: str, rich: Request, two_trips: Request) -> None:
     def renamed(value: Any) -> Any:
@@ -301,6 +302,7 @@ def test_a_thousand_customers_are_drawn_in_seconds() -> None:
     assert "c500" not in texts
 
 
+@pytest.mark.thorough
 def test_threads_draw_the_same_picture_and_change_no_settings(rich: Request,
                                                              two_trips: Request) -> None:
     before = matplotlib.rcParams.copy()
@@ -311,6 +313,7 @@ def test_threads_draw_the_same_picture_and_change_no_settings(rich: Request,
     assert matplotlib.rcParams.copy() == before
 
 
+@pytest.mark.thorough
 def test_no_more_of_matplotlib_is_loaded_than_is_needed() -> None:
     script = "import sys, app.plans.pictures.page; print('matplotlib.pyplot' in sys.modules)"
     root = Path(__file__).parents[4]

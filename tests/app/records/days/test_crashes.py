@@ -32,6 +32,7 @@ def searching(port: int) -> None:
                 timeout_keep_alive=IDLE_SECONDS)
 
 
+@pytest.mark.thorough_after(1)
 def test_killed_service_loses_no_event_and_counts_none_twice(
         settings: Settings, tmp_path: Path) -> None:
     url = settings.database_url

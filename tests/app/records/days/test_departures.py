@@ -45,6 +45,7 @@ def test_who_waits_is_decided_anew_as_a_departure_comes_due(tmp_path: Path) -> N
         assert standing(client, day).plan_number == 2
 
 
+@pytest.mark.thorough_after(1)
 @pytest.mark.parametrize("more", [
     {"forecast": None},
     {"customers": [{**each, "time_window": {"latest": 3 * EVERY}}

@@ -56,6 +56,7 @@ def searched(client: httpx.Client, problem: Data, plan: Data, slot: Data) -> flo
     return None if found["unassigned"] else float(found["cost"]["total"] - without)
 
 
+@pytest.mark.thorough_after(1)
 @pytest.mark.parametrize("now", [None, 250, 700])
 @pytest.mark.parametrize("seed", seeds(9))
 def test_slot_costs_what_a_search_finds(service: httpx.Client, seed: int,

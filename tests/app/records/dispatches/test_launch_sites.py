@@ -135,6 +135,7 @@ DONE = {step: ToldStep("done", time) for step, time in (
     (SECOND_LAUNCH, 30_760.0), (SECOND_RECOVERY, 31_000.0), (RETURN, 31_000.0))}
 
 
+@pytest.mark.thorough_after(8)
 @pytest.mark.parametrize("told", [
     *(dict(list(DONE.items())[:count]) for count in range(1, len(DONE) + 1)),
     {LAUNCH: ToldStep("failed", 30_350, "Wind")},

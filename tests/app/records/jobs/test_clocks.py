@@ -16,6 +16,7 @@ Request = dict[str, Any]
 DAY = {"plan_start": "2026-10-25T00:00", "time_zone": "Europe/Berlin"}
 
 
+@pytest.mark.thorough
 def test_plan_of_a_job_tells_times_and_is_explained(jobs: httpx.Client) -> None:
     job = submit(jobs, request_of(0.1) | DAY)
     done = ended(jobs, job)

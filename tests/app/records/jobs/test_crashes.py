@@ -70,6 +70,7 @@ def attempts_of(url: str) -> list[int]:
     return attempts
 
 
+@pytest.mark.thorough_after(1)
 def test_killed_jobs_go_on_from_their_best_plans(settings: Settings, tmp_path: Path) -> None:
     with served(tmp_path, serve=halfway, **stated(settings)) as process:
         jobs = [submit(process.client, request_of(600, search_iterations=50)) for _ in range(2)]
@@ -95,6 +96,7 @@ def test_killed_jobs_go_on_from_their_best_plans(settings: Settings, tmp_path: P
         assert len({cell["job"] for cell in cells}) == 4
 
 
+@pytest.mark.thorough
 def test_job_by_regions_goes_on_after_kills(settings: Settings, tmp_path: Path) -> None:
     regions = {"region_from": 2, "region_customers": 5, "region_seconds": 0.5}
     with served(tmp_path, **stated(settings), **regions) as process:
@@ -112,6 +114,7 @@ def test_job_by_regions_goes_on_after_kills(settings: Settings, tmp_path: Path) 
                                                   in range(1, NUM_CUSTOMERS + 1))
 
 
+@pytest.mark.thorough
 def test_process_that_is_asked_to_end_hands_its_jobs_to_another(
         postgres: Postgres, tmp_path: Path) -> None:
     url = postgres.create("handover")
@@ -136,6 +139,7 @@ def test_process_that_is_asked_to_end_hands_its_jobs_to_another(
             assert (after["state"], after["cost"] <= before["cost"]) == ("running", True)
 
 
+@pytest.mark.thorough
 def test_outage_of_postgresql_loses_nothing(fragile_postgres: Postgres, tmp_path: Path) -> None:
     url = fragile_postgres.create("outage")
     with served(tmp_path, database_url=url, data_dir=tmp_path, drain_seconds=0) as process:
@@ -157,6 +161,7 @@ def test_outage_of_postgresql_loses_nothing(fragile_postgres: Postgres, tmp_path
             assert (done["state"], done["cost"]) == ("done", FULL_COST)
 
 
+@pytest.mark.thorough
 def test_two_workers_share_a_queue_each_job_done_once(postgres: Postgres, tmp_path: Path) -> None:
     url = postgres.create("shared")
     common = {"database_url": url, "data_dir": tmp_path, "drain_seconds": 0, "job_slots": 8}
@@ -180,6 +185,7 @@ def test_two_workers_share_a_queue_each_job_done_once(postgres: Postgres, tmp_pa
     assert sum(workers.values()) == len(jobs)
 
 
+@pytest.mark.thorough
 @pytest.mark.by_clock
 def test_true_planner_goes_on_after_a_kill(tmp_path: Path, with_drones: dict[str, Any]) -> None:
     limit = 4.0

@@ -81,6 +81,7 @@ def test_job_is_planned_by_regions_round_after_round(office: Office) -> None:
     assert watching.is_idle
 
 
+@pytest.mark.thorough_after(1)
 @pytest.mark.parametrize("come_back", [True, False])
 def test_job_goes_on_when_its_keeper_is_killed(office: Office, come_back: bool) -> None:
     office.job()

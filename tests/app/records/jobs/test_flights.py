@@ -13,6 +13,7 @@ pytestmark = pytest.mark.slow
 EXAMPLE = Path(__file__).parents[4] / "app" / "schemas" / "examples" / "flights.json"
 
 
+@pytest.mark.thorough
 def test_job_without_flights_and_unknown_formats_are_told(jobs: httpx.Client) -> None:
     job = submit(jobs, request_of(0.2))
     ended(jobs, job)

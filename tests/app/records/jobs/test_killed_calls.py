@@ -12,7 +12,7 @@ from tests.app.records.jobs.served import Served
 from tests.app.records.jobs.stepping import request_of
 from tests.conftest import PATIENCE, eventually
 
-pytestmark = pytest.mark.slow
+pytestmark = [pytest.mark.slow, pytest.mark.thorough]
 
 SECRET = "whsec_MDEyMzQ1Njc4OTAxMjM0NTY3ODkwMTIzNDU2Nzg5MDE="
 

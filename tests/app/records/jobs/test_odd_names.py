@@ -11,7 +11,7 @@ from tests.app.postgres import settings_of
 from tests.app.records.jobs.conftest import serving
 from tests.app.records.jobs.stepping import ended, request_of, submit
 
-pytestmark = pytest.mark.slow
+pytestmark = [pytest.mark.slow, pytest.mark.thorough]
 
 SECRET = SecretStr("whsec_MDEyMzQ1Njc4OTAxMjM0NTY3ODkwMTIzNDU2Nzg5MDE=")
 NOBODY = "00000000-0000-4000-8000-000000000000"

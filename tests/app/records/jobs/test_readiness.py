@@ -83,6 +83,7 @@ MISFITS = [("ALTER TABLE jobs DROP COLUMN webhook", "ALTER TABLE jobs ADD COLUMN
             "The database has the version 9999")]
 
 
+@pytest.mark.thorough_after(2)
 @pytest.mark.parametrize(("spoil", "mend", "words"), MISFITS)
 def test_tables_that_do_not_fit_at_the_start_are_told_in_words(
         serve: Serve, settings: Settings, spoil: str, mend: str, words: str) -> None:

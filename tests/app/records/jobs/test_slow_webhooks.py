@@ -14,7 +14,7 @@ from tests.app.records.jobs.receiving import Receiver, drip
 from tests.app.records.jobs.stepping import request_of, submit
 from tests.conftest import SOON, eventually
 
-pytestmark = pytest.mark.slow
+pytestmark = [pytest.mark.slow, pytest.mark.thorough]
 
 
 def test_slow_receivers_of_one_host_hold_up_no_other(

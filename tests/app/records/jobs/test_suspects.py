@@ -16,7 +16,7 @@ from tests.app.records.jobs.conftest import serving
 from tests.app.records.jobs.stepping import SteppingPlanner, ended, read, request_of, submit
 from tests.conftest import eventually
 
-pytestmark = pytest.mark.slow
+pytestmark = [pytest.mark.slow, pytest.mark.thorough]
 
 
 class CountingPlanner(SteppingPlanner):

@@ -105,6 +105,7 @@ def test_without_a_time_limit_the_setting_limits_the_work(
     assert "the 0.2 s of TANDEM_MAX_PLAN_SECONDS" in error["message"]
 
 
+@pytest.mark.thorough
 def test_areas_that_cross_too_often_are_refused_with_an_estimate(client: httpx.Client) -> None:
     assert client.post("/plan", json=crowd(1, bars(60), time_limit=10)).status_code == 200
     reply = client.post("/plan", json=crowd(1, bars(1000), time_limit=10))

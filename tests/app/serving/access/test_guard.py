@@ -147,6 +147,7 @@ def test_keys_in_memory_serve_while_the_database_is_away(
     assert int(reply.headers["retry-after"]) > 0
 
 
+@pytest.mark.thorough_after(3)
 @pytest.mark.parametrize("address", [
     "/plan?key=KEY", "/plan?a=1&api_key=KEY", "/plan?API-KEY=other", "/plan?access_token=other",
     "/plan?note=KEY", "/plan?note=%74dm_KEY", "/plan?%6bey=other", "/jobs/KEY", "/%74dm_x/plan"])

@@ -13,7 +13,7 @@ from tests.app.serving.load.nonsense import HELD_UP, PROCESSOR, Taken
 from tests.conftest import made_once
 from tests.seeds import SHARE
 
-pytestmark = pytest.mark.slow
+pytestmark = [pytest.mark.slow, pytest.mark.thorough]
 
 EACH = 12 * SHARE
 """Of so many kinds one is sent to a route, and another one to the next."""

@@ -221,6 +221,7 @@ def test_bounds_join_the_other_errors_of_a_request(serve: Serve, smallest: Reque
     assert sorted(codes) == ["MISSING_FIELD", "UNKNOWN_FIELD", "WRONG_LENGTH"]
 
 
+@pytest.mark.thorough_after(1)
 @pytest.mark.parametrize(("options", "status"), [
     ({"time_limit": 0}, 200),
     ({"time_limit": 0, "decoding": "sample", "num_samples": 128}, 422),

@@ -51,12 +51,14 @@ def test_running_plans_are_returned_and_new_requests_sent_elsewhere(smallest: Re
         process.wait(PATIENCE)
 
 
+@pytest.mark.thorough
 def test_interrupted_process_ends_at_once() -> None:
     with process_of_its_own(TANDEM_DRAIN_SECONDS=f"{DRAIN:g}") as (process, _):
         process.send_signal(signal.SIGINT)
         process.wait(PATIENCE)
 
 
+@pytest.mark.thorough
 def test_process_ends_by_itself_after_its_time() -> None:
     with process_of_its_own(TANDEM_DRAIN_SECONDS="1.5") as (process, _):
         began = time.perf_counter()
@@ -96,6 +98,7 @@ def serving(data_dir: Path) -> Iterator[subprocess.Popen[bytes]]:
             process.kill()
 
 
+@pytest.mark.thorough
 @pytest.mark.skipif(not Path("/proc/self/task").exists(), reason="reads Linux's list of processes")
 def test_processes_that_share_a_port_are_replaced_and_end_with_the_one_that_started_them(
         tmp_path: Path) -> None:

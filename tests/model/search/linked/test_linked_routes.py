@@ -199,6 +199,7 @@ def routes_of(data: ProblemData, searcher: Searcher, linked: Linked) -> list[lis
     return served_by(searcher)
 
 
+@pytest.mark.thorough_after(5)
 @pytest.mark.parametrize("make", [
     loads_alone, with_windows, with_few_vehicles, with_two_depots, with_other_shifts,
     with_several_types, with_one_way_streets, with_legs_stated_anyhow, on_the_globe,

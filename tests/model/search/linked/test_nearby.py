@@ -33,6 +33,7 @@ def without(routes: tuple[Route, ...], node: int) -> tuple[Route, ...]:
     return tuple(found)
 
 
+@pytest.mark.thorough_after(1)
 @pytest.mark.parametrize("is_linked", [True, False])
 def test_no_cheaper_place_beside_a_neighbour_is_passed_over(is_linked: bool) -> None:
     problem = generate(np.random.default_rng(17), MANY, "cvrp")
