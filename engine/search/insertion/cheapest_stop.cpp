@@ -82,11 +82,6 @@ void scan_trip(const Insertion& insertion, const Joining& joins, Int first, Int 
 
 }  // namespace
 
-bool is_simple(const ProblemData& data, const Fleet& fleet, Int slot) {
-    const Route& route = fleet.route[slot];
-    return data.evaluation[route.type].by_detour && route.sorties == 0;
-}
-
 void scan_simple(const Insertion& insertion, Int slot) {
     const Fleet& fleet = insertion.searcher.now;
     for (Int index = 0; index < fleet.route[slot].trips; ++index) {
@@ -102,7 +97,7 @@ void scan_beside(const Insertion& insertion, Int other) {
     const Fleet& fleet = searcher.now;
     const Int slot = fleet.where[other].slot;
     const Int k = fleet.route[slot].type;
-    if (!(is_simple(data, fleet, slot) && data.can(k, 0, node))) return;
+    if (!(is_simple(data, fleet.route[slot]) && data.can(k, 0, node))) return;
     const Int p = fleet.where[other].position, m = data.type[k].travel;
     const View<const Stop, 1> stops = fleet.stop[slot];
     const Rate& rate = data.rate[k];

@@ -6,7 +6,9 @@
 namespace tandem {
 
 // Tells whether an insertion into a route costs its detour alone.
-bool is_simple(const ProblemData& data, const Fleet& fleet, Int slot);
+inline bool is_simple(const ProblemData& data, const Route& route) {
+    return data.evaluation[route.type].by_detour && route.sorties == 0;
+}
 
 // Tries the customer on all trips of a route where only distance counts.
 void scan_simple(const Insertion& insertion, Int slot);

@@ -77,7 +77,7 @@ double price_offer(const ProblemData& data, const Searcher& searcher, Move& move
         const Int row = row_of_drone(data.type, now.route[slot].type, placed.drone);
         placed.drone = std::int32_t(free_drone(data, now, slot, stretch, row));
         if (placed.drone < 0) return infeasible;
-    } else if (is_stop(placed) && is_simple(data, now, slot) &&
+    } else if (is_stop(placed) && is_simple(data, now.route[slot]) &&
                !is_apart(data, now.route[slot].type)) {
         return more_trips_fit(data, now, move, node) ? least : infeasible;
     }

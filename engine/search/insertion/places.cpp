@@ -58,7 +58,7 @@ void try_route(const Insertion& insertion, Int slot) {
     const Int k = route.type;
     const VehicleType& type = data.type[k];
     const bool drives = data.can(k, 0, node), flies = data.can(k, 1, node);
-    const bool simple = is_simple(data, now, slot);
+    const bool simple = is_simple(data, route);
     if (is_paired(data.pair, node)) {
         scan_pair(insertion, slot);
         return;
@@ -89,17 +89,31 @@ void try_route(const Insertion& insertion, Int slot) {
     if (has_halts(data) && flies) try_halts(insertion, slot);
 }
 
-// Tells whether the best place kept for a customer on a route is still that, or none is.
-bool is_kept(const Insertion& insertion, Int slot) {
-    const auto [data, searcher, node, enlarge, best] = insertion;
-    return searcher.kept_stamp(node, slot) == searcher.now.route[slot].stamp &&
+// Tells whether the best place for a customer on a route is kept from turn to turn.
+bool may_keep(const Insertion& insertion, Int slot) {
+    return insertion.data.strategy.keep_places && !insertion.enlarge &&
+           insertion.searcher.now.route[slot].stamp != changing;
+}
+
+// Tells whether the place that is kept is still the best, or none is.
+[[gnu::always_inline]] inline bool is_kept(const Insertion& insertion, Int slot) {
+    const auto& [data, searcher, node, enlarge, best] = insertion;
+    return may_keep(insertion, slot) &&
+           searcher.kept_stamp(node, slot) == searcher.now.route[slot].stamp &&
            (searcher.kept_move(node, slot).count > 0 ||
             searcher.kept_cost(node, slot) >= best.cost);
 }
 
-// Keeps what was found for a customer on a route, which cost less than `before`, or nothing.
-void keep(const Insertion& insertion, Int slot, double before) {
-    const auto [data, searcher, node, enlarge, best] = insertion;
+// Tries a customer on a route as `try_route`, and keeps what is found that costs less than the best
+// so far, or that nothing does.
+void try_anew(const Insertion& insertion, Int slot) {
+    const auto& [data, searcher, node, enlarge, best] = insertion;
+    const bool keeps = may_keep(insertion, slot);
+    const double before = best.cost;
+    best.blink = keeps ? 0.0 : data.strategy.blink;
+    try_route(insertion, slot);
+    best.blink = data.strategy.blink;
+    if (!keeps) return;
     searcher.kept_stamp(node, slot) = searcher.now.route[slot].stamp;
     searcher.kept_cost(node, slot) = best.cost;
     Move& kept = searcher.kept_move(node, slot);
@@ -138,30 +152,31 @@ void try_weighed(const Insertion& insertion, Int slot, const Find& find) {
 // Most turns are undone, so that most routes are as when the customer was inserted before. If the
 // best place there is overlooked, so is the route.
 void try_routes(const Insertion& insertion) {
-    const auto [data, searcher, node, enlarge, best] = insertion;
-    const Fleet& now = searcher.now;
-    for (const bool costly : {false, true}) {
-        for (const Int slot : searcher.active.first(searcher.count->active)) {
-            const Route& route = now.route[slot];
-            const bool flies = data.can(route.type, 1, node);
-            if (!flies && !data.can(route.type, 0, node)) continue;
-            if (data.deadline.passed()) return;
-            try_weighed(insertion, slot, [&] {
-                const bool known = data.strategy.keep_places && !enlarge && route.stamp != changing;
-                if (known && is_kept(insertion, slot)) {
-                    if (!costly && best.takes(searcher.kept_cost(node, slot))) {
-                        best.move.become(searcher.kept_move(node, slot));
-                    }
-                    return;
+    const auto& [data, searcher, node, enlarge, best] = insertion;
+    const View<Int, 1> costly = searcher.scratch->moved;
+    Int left = 0;
+    for (const Int slot : searcher.active.first(searcher.count->active)) {
+        const Route& route = searcher.now.route[slot];
+        const bool flies = data.can(route.type, 1, node);
+        if (!flies && !data.can(route.type, 0, node)) continue;
+        if (data.deadline.passed()) return;
+        try_weighed(insertion, slot, [&] {
+            if (is_kept(insertion, slot)) {
+                if (best.takes(searcher.kept_cost(node, slot))) {
+                    best.move.become(searcher.kept_move(node, slot));
                 }
-                if (costly != (flies || !is_simple(data, now, slot))) return;
-                const double before = best.cost;
-                best.blink = known ? 0.0 : data.strategy.blink;
-                try_route(insertion, slot);
-                best.blink = data.strategy.blink;
-                if (known) keep(insertion, slot, before);
-            });
-        }
+            } else if (flies || !is_simple(data, route)) {
+                costly.at(left++) = slot;
+            } else {
+                try_anew(insertion, slot);
+            }
+        });
+    }
+    for (const Int slot : costly.first(left)) {
+        if (data.deadline.passed()) return;
+        try_weighed(insertion, slot, [&] {
+            if (!is_kept(insertion, slot)) try_anew(insertion, slot);
+        });
     }
 }
 
@@ -197,7 +212,7 @@ void offer_beside(const Insertion& insertion, Int other) {
     const VehicleType& type = data.type[k];
     const Int p = stop_beside(now, other), index = now.stop(slot, p).trip;
     const Trip& trip = now.trip(slot, index);
-    const bool drives = data.can(k, 0, node) && !is_simple(data, now, slot) &&
+    const bool drives = data.can(k, 0, node) && !is_simple(data, now.route[slot]) &&
                         allows_stops(type, stops_on(trip) + 1);
     const bool flies =
         data.can(k, 1, node) && may_launch(type, now.route[slot], now.sortie[slot], trip);
