@@ -276,6 +276,15 @@ void offer_splits(const Insertion& insertion, Int slot) {
     const auto [route, stops, trips, sorties] = tour_of(now, slot);
     const Int k = route.type;
     const Rate& rate = data.rate[k];
+    const bool apart = is_apart(data, k);
+    // Where all trips begin and end at one place, its legs are looked up once.
+    const Newcomer newcomer = newcomer_for(data, data.type[k], node);
+    const Newcomer depot = newcomer_for(data, data.type[k], data.type[k].depot);
+    const auto way_by = [&](Int here, Int there, bool first) {
+        if (apart) return way_by_reload(data, k, here, node, there, first);
+        return first ? newcomer.further(here, depot.node, 0) + distance_to(depot.onward, there)
+                     : depot.further(here, node, 0) + distance_to(newcomer.onward, there);
+    };
     for (Int p = 0; p < route.length - 1; ++p) {
         if (stops[p].kind == end_stop || stops[p].kind == start_stop || stops[p].flying > 0 ||
             stops[p + 1].kind == end_stop) {
@@ -283,8 +292,7 @@ void offer_splits(const Insertion& insertion, Int slot) {
         }
         const Int here = stops[p].node, there = stops[p + 1].node;
         const auto detour = [&](bool first) {
-            return double(way_by_reload(data, k, here, node, there, first) - stops[p].leg) *
-                   rate.distance;
+            return double(way_by(here, there, first) - stops[p].leg) * rate.distance;
         };
         double cost = detour(false);
         const double before = detour(true);
