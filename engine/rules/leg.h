@@ -65,7 +65,7 @@ inline TravelLegs legs_of(const Legs& legs, Int m) {
 }
 
 // The row of a node among the legs of travel `m`, in one direction of the tables.
-inline LegRow legs_beside(const Legs& legs, Int direction, Int m, Int node) {
+[[gnu::always_inline]] inline LegRow legs_beside(const Legs& legs, Int direction, Int m, Int node) {
     if (legs.stated.data() != nullptr) return {.stated = &legs.stated(m, node, 0, 0)};
     const LegLaw& law = legs.law[m];
     const Int* table = law.table < 0 ? nullptr : &legs.table(direction, law.table, node, 0, 0);
@@ -73,10 +73,12 @@ inline LegRow legs_beside(const Legs& legs, Int direction, Int m, Int node) {
 }
 
 // The legs of travel `m` from a node, for a loop over where they lead.
-inline LegRow legs_from(const Legs& legs, Int m, Int node) { return legs_beside(legs, 0, m, node); }
+[[gnu::always_inline]] inline LegRow legs_from(const Legs& legs, Int m, Int node) {
+    return legs_beside(legs, 0, m, node);
+}
 
 // The legs of travel `m` to a node; stated ones are given as (travel, to, origin, 2).
-inline LegRow legs_to(const Legs& legs, Int m, Int node) {
+[[gnu::always_inline]] inline LegRow legs_to(const Legs& legs, Int m, Int node) {
     return legs_beside(legs, legs.table.shape(0) - 1, m, node);
 }
 
@@ -89,14 +91,14 @@ inline LegRow legs_to(const Legs& legs, Int m, Int node) {
 }
 
 // The leg to a node from that for which `legs_from` took the row.
-inline Leg leg_to(const LegRow& onward, Int node) {
+[[gnu::always_inline]] inline Leg leg_to(const LegRow& onward, Int node) {
     if (onward.stated != nullptr) return stated_leg(onward.stated + 2 * node);
     if (onward.table != nullptr) return {onward.table[2 * node], onward.table[2 * node + 1]};
     return straight_leg(*onward.here, onward.point[node], *onward.law);
 }
 
 // The leg from a node to that for which `legs_to` took the row.
-inline Leg leg_from(const LegRow& inward, Int node) {
+[[gnu::always_inline]] inline Leg leg_from(const LegRow& inward, Int node) {
     if (inward.stated != nullptr) return stated_leg(inward.stated + 2 * node);
     if (inward.table != nullptr) return {inward.table[2 * node], inward.table[2 * node + 1]};
     return straight_leg(inward.point[node], *inward.here, *inward.law);

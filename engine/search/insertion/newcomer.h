@@ -41,7 +41,8 @@ struct Newcomer {
 };
 
 // Returns a customer as vehicles of a type meet him.
-inline Newcomer newcomer_for(const ProblemData& data, const VehicleType& type, Int node) {
+[[gnu::always_inline]] inline Newcomer newcomer_for(const ProblemData& data,
+                                                    const VehicleType& type, Int node) {
     return {node, data.place.by_truck(type)[node], legs_to(data.back, type.travel, node),
             legs_from(data.leg, type.travel, node)};
 }

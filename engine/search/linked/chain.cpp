@@ -13,7 +13,8 @@ Int onward_of(const ProblemData& data, const Linked& linked, const Run& run, Int
 }
 
 // Lets one customer, or the depot, come right behind another, so far away.
-void join(const ProblemData& data, Linked& linked, Run& run, Int before, Int behind, Int distance) {
+[[gnu::always_inline]] inline void join(const ProblemData& data, Linked& linked, Run& run,
+                                        Int before, Int behind, Int distance) {
     if (before >= data.num_depots) {
         Link& here = linked.link[before];
         here.behind = behind;

@@ -16,7 +16,8 @@ struct DroneData {
 };
 
 // Whether drones of a type may serve a customer who are launched or recovered at a node.
-inline bool in_range(const ProblemData& data, const VehicleType& type, Int node, Int customer) {
+[[gnu::always_inline]] inline bool in_range(const ProblemData& data, const VehicleType& type,
+                                            Int node, Int customer) {
     return !limits_range(type) ||
            within_range(type,
                         leg(legs_of(data.leg, type.straight_travel), node, customer).distance);
