@@ -80,7 +80,7 @@ void touch(const Searcher& searcher, Int slot) {
 void keep_aside(const Fleet& fleet, Int slot, Int to) {
     const Route& route = fleet.route[slot];
     fleet.route[to] = route;
-    copy_first(fleet.stop[slot], route.length, fleet.stop[to]);
+    for (Int p = 0; p < route.length; ++p) copy_sequence(fleet.stop(slot, p), fleet.stop(to, p));
     copy_first(fleet.sortie[slot], route.sorties, fleet.sortie[to]);
 }
 

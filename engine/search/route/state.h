@@ -54,7 +54,7 @@ inline Int free_slot(const ProblemData& data, const Searcher& searcher, Int k) {
 // Keep a route as it is before it changes this turn. In place.
 void touch(const Searcher& searcher, Int slot);
 
-// Copy the sequence and times of a route to another slot. In place.
+// Copy what is chosen of a route to another slot, where it is as long but not timed. In place.
 void keep_aside(const Fleet& fleet, Int slot, Int to);
 
 // List a slot as changed since the best. In place.
