@@ -48,10 +48,15 @@ private:
 };
 
 struct Best {
+    Best(double overlooking, View<std::uint64_t, 1> numbers, double at_most = infeasible)
+        : blink(overlooking), rng(numbers), cost(at_most) {
+        move.between(0, 0, 0, 0);
+    }
+
     double blink;  // how often a place is overlooked that costs less than the best
     View<std::uint64_t, 1> rng;
-    double cost = infeasible;
-    Move move{};
+    double cost;
+    Move move;
     Shares shares{};                 // of all routes, where the plan as a whole costs something
     double weight = 0.0;             // how much what it would cost more counts
     PricedPlaces* listed = nullptr;  // of those overlooked, if they are wanted
