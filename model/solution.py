@@ -136,17 +136,23 @@ class Vehicle(NamedTuple):
 
 
 @dataclass(frozen=True, slots=True)
-class Route:
-    """All trips of one vehicle, in order."""
+class OneVehicle:
+    """What one vehicle does."""
 
     vehicle_type: int  # index into Problem.vehicle_types
     vehicle: int  # 0-based, within its type
-    trips: tuple[Trip, ...]
 
     @property
     def driven_by(self) -> Vehicle:
         """The vehicle."""
         return Vehicle(self.vehicle_type, self.vehicle)
+
+
+@dataclass(frozen=True, slots=True)
+class Route(OneVehicle):
+    """All trips of one vehicle, in order."""
+
+    trips: tuple[Trip, ...]
 
     @property
     def visits(self) -> list[Stop | Visit]:

@@ -20,7 +20,7 @@ from model.judge.pairs import hands_over
 from model.judge.past import KnownTrip, resumed_service
 from model.judge.takeoff import charged_launch, held_takeoff, rest_after
 from model.problem import DroneType, Problem, VehicleType
-from model.solution import Charge, Route, Sortie, Stop, Trip, Vehicle, Visit
+from model.solution import Charge, OneVehicle, Route, Sortie, Stop, Trip, Visit
 
 
 class Operation(NamedTuple):
@@ -72,17 +72,10 @@ class TripDecision:
 
 
 @dataclass(frozen=True)
-class RouteDecision:
+class RouteDecision(OneVehicle):
     """What is free to choose in a route."""
 
-    vehicle_type: int
-    vehicle: int
     trips: tuple[TripDecision, ...]
-
-    @property
-    def driven_by(self) -> Vehicle:
-        """The vehicle."""
-        return Vehicle(self.vehicle_type, self.vehicle)
 
 
 @dataclass
