@@ -187,7 +187,6 @@ def test_link_told_once_outlasts_a_look_that_was_under_way(page: Page) -> None:
     expect(page.get_by_role("link", name="Open the day of Cem")).to_be_visible()
 
 
-@pytest.mark.thorough
 def test_the_day_goes_on_in_few_clicks(
         page: Page, drivers: Callable[[str], Page]) -> None:
     clicks = Clicks(page)

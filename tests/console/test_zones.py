@@ -16,7 +16,7 @@ from tests.console.steps import (
 )
 from tests.console.test_everyone import findings
 
-pytestmark = [pytest.mark.slow, pytest.mark.one_page, pytest.mark.thorough]
+pytestmark = [pytest.mark.slow, pytest.mark.one_page]
 
 NUM_ZONES = 400
 HUB = [25.0, 62.0]
@@ -67,6 +67,7 @@ def test_zones_of_a_file_are_seen_planned_around_and_told(page: Page) -> None:
     assert state(page, "state.request.airspace.zones") == []
 
 
+@pytest.mark.thorough
 def test_what_is_stated_of_a_zone_is_entered_where_it_is_clicked(page: Page) -> None:
     open_example(page, "city_day")
     customer = state(page, "state.request.customers.0")
@@ -113,6 +114,7 @@ def drawn(page: Page, buffer: str) -> int:
     return int(page.evaluate(DRAWN))
 
 
+@pytest.mark.thorough
 def test_flights_keep_a_distance_that_is_proposed_stated_and_drawn(page: Page) -> None:
     open_example(page, "city_day")
     customer = state(page, "state.request.customers.0")
@@ -191,6 +193,7 @@ def around(place: list[float], radius_km: float, rng: random.Random,
 SHOPS_KM = {"closed": (3, 4), "east": (2, 0), "west": (-2, -1), "north": (0, 2), "south": (1, -2)}
 
 
+@pytest.mark.thorough
 def test_a_countrys_file_is_dropped_planned_around_and_told_of_and_flights_are_saved(
         page: Page) -> None:
     open_file(page, "shops.json", json.dumps({
@@ -226,6 +229,7 @@ def test_a_countrys_file_is_dropped_planned_around_and_told_of_and_flights_are_s
     assert all(mission["fileType"] == "Plan" for mission in missions)
 
 
+@pytest.mark.thorough
 def test_zones_are_refused_beside_places_on_a_plane(page: Page) -> None:
     open_example(page, "drones")
     open_file(page, "zones.json", zones(25.0, 60.0))
@@ -240,6 +244,7 @@ POLYGON = {"type": "Polygon", "coordinates": [[[24.9, 60.2], [24.92, 60.2], [24.
                                                [24.9, 60.2]]]}
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize(("name", "content"), [
     ("zones.kml", KML),
     ("zones.geojson", json.dumps({"type": "FeatureCollection", "features": [
